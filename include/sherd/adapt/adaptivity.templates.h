@@ -1,0 +1,149 @@
+#pragma once
+
+#include <sherd/adapt/adaptivity.h>
+
+namespace sherd
+{
+
+template <class Model>
+Adaptivity<Model>::Adaptivity(const SurfaceType &surface, const RefinementSettings &settings)
+    : settings_(settings), target_{{0., 0.}}
+{
+  if (!(settings.target > 0.))
+    throw InvalidParameter("refinement.target = " + std::to_string(settings.target) +
+                           ", expected an element size > 0, at most half the length scale");
+  if (!(settings.halo >= 0.))
+    throw InvalidParameter("refinement.halo = " + std::to_string(settings.halo) + ", expected a length >= 0");
+  target_ = span_target(surface, settings.target);
+}
+
+template <class Model>
+template <class Solver>
+void Adaptivity<Model>::prepare(Solver                   &solver,
+                                SurfaceType              &surface,
+                                SpaceType                &space,
+                                StateType                &state,
+                                const PreCrack<spacedim> &pre_crack)
+{
+  const auto &model = solver.model();
+  {
+    const auto timing = solver.timers().measure("refine");
+    for (;;)
+      {
+        std::vector<int> marked;
+        const auto       X = surface.control_points();
+        for (const int point : coarse_points(surface, target_))
+          if (pre_crack.phase(Point<spacedim>(X.row(point).transpose()), model.crack_density) < settings_.phase)
+            marked.push_back(point);
+        if (marked.empty())
+          break;
+        surface.refine(marked, target_);
+      }
+    space.rebuild();
+    state = StateType(space);
+  }
+  solver.rebuild(state);
+
+  const auto X = surface.control_points();
+  for (int a = 0; a < state.distribution->n_local(); ++a)
+    state.phase.local()[a] =
+      pre_crack.phase(Point<spacedim>(X.row(state.distribution->global(a)).transpose()), model.crack_density);
+  for (int e = 0; e < space.n_active_elements(); ++e)
+    for (int q = 0; q < state.n_q; ++q)
+      {
+        const auto position = solver.assembler().quadrature_position(e, q);
+        state.history[e][q] = pre_crack.history(position, model.degradation, model.toughness(position));
+      }
+  solver.equilibrate_phase(state);
+}
+
+template <class Model>
+template <class Solver>
+void Adaptivity<Model>::refine(Solver                   &solver,
+                               SurfaceType              &surface,
+                               SpaceType                &space,
+                               StateType                &state,
+                               const Triggers<spacedim> &triggers)
+{
+  {
+    const auto timing = solver.timers().measure("refine");
+    auto       global = gather(state, space);
+    // At least the triggering functions themselves, whatever the rounding of their positions.
+    const double radius = std::max(settings_.halo, .5 * settings_.target);
+    for (;;)
+      {
+        const auto marked = coarse_points_near(surface, target_, triggers.positions, radius);
+        if (marked.empty())
+          break;
+        const auto boxes      = element_boxes(surface);
+        const auto refinement = surface.refine(marked, target_);
+        global                = transfer(global, boxes, refinement, surface);
+      }
+    space.rebuild();
+    state = distribute(global, space);
+  }
+  solver.rebuild(state);
+  Vector at_rest = state.acceleration;
+  at_rest.fill(0.);
+  state.history = solver.assembler().committed({state.position, at_rest, state.phase}, state.history);
+}
+
+template <class Model>
+template <class Solver>
+StepSummary Adaptivity<Model>::advance(Solver         &solver,
+                                       SurfaceType    &surface,
+                                       SpaceType      &space,
+                                       StateType      &state,
+                                       StepController &controller,
+                                       double          end_time)
+{
+  StepSummary summary;
+  for (;;)
+    {
+      const double dt     = controller.step_within(end_time - state.time);
+      auto         result = solver.attempt(state, dt);
+      ++summary.attempts;
+      summary.linear += result.linear;
+      summary.switched += result.switched;
+      summary.messages.insert(summary.messages.end(), result.messages.begin(), result.messages.end());
+      if (!result.state)
+        {
+          ++summary.rejected;
+          summary.messages.push_back("rejected: " + result.failure);
+          controller.reject(result.failure);
+          continue;
+        }
+
+      const auto triggers = find_triggers(solver.model(), space, *result.state, target_, settings_);
+      if (!triggers.empty() && triggers.smallest_phase < settings_.recompute_phase)
+        {
+          refine(solver, surface, space, state, triggers);
+          controller.refine();
+          controller.bound(solver.assembler().shortest_edge(), solver.rayleigh_speed());
+          ++summary.refined;
+          ++summary.repeated;
+          continue;
+        }
+
+      state                 = std::move(*result.state);
+      summary.dt            = dt;
+      summary.newton        = result.newton;
+      summary.external_work = result.external_work;
+      summary.largest_phase = result.largest_phase;
+      {
+        const auto timing = solver.timers().measure("energies");
+        summary.energies  = solver.energies(state, state.previous_phase);
+      }
+      controller.accept(result.newton);
+      if (!triggers.empty())
+        {
+          refine(solver, surface, space, state, triggers);
+          controller.refine();
+          controller.bound(solver.assembler().shortest_edge(), solver.rayleigh_speed());
+          ++summary.refined;
+        }
+      return summary;
+    }
+}
+
+} // namespace sherd

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <sherd/algebra/matrix.h>
+#include <sherd/algebra/vector.h>
+
+namespace sherd
+{
+
+/// How a system is preconditioned; in parameter files by these names.
+enum class Preconditioner
+{
+  point_block_ilu, ///< incomplete factors of small dense blocks, one for each pair of control points
+                   ///< (algebra/block_ilu.h)
+  ifpack2_ilu,     ///< scalar incomplete factors of Ifpack2 (RILUK), for comparison
+  mumps            ///< complete factors: a direct solver
+};
+
+/// Throws InvalidParameter with the names there are.
+Preconditioner preconditioner_from_name(std::string_view name);
+std::string    to_string(Preconditioner preconditioner);
+
+/// What happens when a preconditioner does not do.
+enum class Escalation
+{
+  automatic, ///< more fill, up to max_fill_level, then MUMPS
+  never      ///< iterate up to max_iterations, then throw
+};
+
+struct LinearSolverSettings
+{
+  Preconditioner preconditioner  = Preconditioner::point_block_ilu;
+  int            fill_level      = 1;    ///< level of fill of the incomplete factors, at least 0
+  int            max_fill_level  = 2;    ///< largest level that escalation tries
+  int            overlap         = 1;    ///< layers of control points shared between the ranks' factors: 0 or 1
+  double         tolerance       = 1e-4; ///< of the residual relative to the right-hand side, both equilibrated
+  Escalation     escalation      = Escalation::automatic;
+  int            iteration_limit = 40;  ///< iterations after which a preconditioner is given up (automatic)
+  int            max_iterations  = 500; ///< iterations allowed without escalation (never)
+  int            restart         = 100; ///< size of the Krylov space
+  int            retry_interval  = 20;  ///< solves after which an escalated solver tries the cheaper one again
+};
+
+/// What one solve took.
+struct SolveReport
+{
+  int            iterations        = 0;  ///< of all attempts together; 1 for a direct solve
+  double         relative_residual = 0.; ///< computed from the solution itself, not the recursion of GMRES
+  Preconditioner used              = Preconditioner::point_block_ilu;
+  int            fill_level        = 0;     ///< of the incomplete factors that did it
+  bool           escalated         = false; ///< whether this solve needed more than the preconditioner it began with
+  std::string    message;                   ///< one line; names every attempt if there was more than one
+  double         setup_seconds = 0., solve_seconds = 0.;
+};
+
+/// Solves A x = b by GMRES (Belos, right preconditioned) or directly (MUMPS).
+///
+/// Rows and columns are equilibrated first by D = diag(|a_ii|^-1/2), since the diagonals of displacement and phase
+/// differ by many orders: D A D y = D b, x = D y. A row without diagonal (a multiplier) is scaled by its largest
+/// entry. Unknowns whose row holds the diagonal alone are known beforehand and exact; residuals are relative to what
+/// they leave of the right-hand side.
+///
+/// Several ranks: restricted additive Schwarz, each rank factors its rows and `overlap` layers of its neighbours'.
+///
+/// An attempt is given up when it takes more than iteration_limit iterations, when the residual recomputed from the
+/// solution misses the tolerance, or when factors or iteration break down. Escalation then goes to the next level of
+/// fill, at last to MUMPS; later solves begin there, and every retry_interval solves one step lower.
+class LinearSolver
+{
+public:
+  /// Throws InvalidParameter.
+  explicit LinearSolver(LinearSolverSettings settings);
+  ~LinearSolver();
+  LinearSolver(LinearSolver &&) noexcept;
+  LinearSolver &operator=(LinearSolver &&) noexcept;
+
+  const LinearSolverSettings &settings() const;
+
+  /// Collective. @p matrix is equilibrated in place, so it has to be assembled anew before the next solve; symbolic
+  /// phases are kept as long as its graph is the same object. Ghosts of @p rhs need not be up to date, those of
+  /// @p solution are. The old content of @p solution has no influence.
+  ///
+  /// Throws, on all ranks, NoConvergence if matrix or right-hand side hold a value that is not finite, if a row is
+  /// zero, or if the last attempt fails; DimensionMismatch if the arguments do not fit together.
+  SolveReport solve(Matrix &matrix, const Vector &rhs, Vector &solution);
+
+  /// Drops symbolic phases and the memory of escalations: the mesh has changed, or a restart has to repeat this run.
+  void forget();
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace sherd

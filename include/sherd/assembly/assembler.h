@@ -1,0 +1,122 @@
+#pragma once
+
+#include <vector>
+
+#include <sherd/algebra/matrix.h>
+#include <sherd/algebra/vector.h>
+#include <sherd/assembly/scatter.h>
+#include <sherd/forms/element_energies.h>
+#include <sherd/forms/loads.h>
+#include <sherd/forms/shell_element.h>
+#include <sherd/geometry/edge_geometry.h>
+#include <sherd/state/state.h>
+
+namespace sherd
+{
+
+/// The fields at the levels at which a time integrator balances momentum and phase (theory F.1).
+struct BalanceLevel
+{
+  const Vector &position;     ///< x at n + alpha_f, block spacedim
+  const Vector &acceleration; ///< a at n + alpha_m, block spacedim
+  const Vector &phase;        ///< phi at n + 1, block 1
+};
+
+/// A quadrature point that may lie on the false branch was found on this active element (theory C.2).
+struct SuspectElements
+{
+  std::vector<int> active; ///< active elements of this rank
+  double           largest_phase = 0.; ///< on this rank
+};
+
+/// The element loop: brings the weak forms of a model to distributed vectors and matrices.
+///
+/// Caches the geometry and the toughness of the active elements, so it belongs to one mesh and one distribution: make
+/// a new one after each refinement. Threads: OMP_NUM_THREADS. The results do not depend on their number.
+template <class Model>
+class Assembler
+{
+public:
+  static constexpr int degree   = Model::degree;
+  static constexpr int spacedim = Model::spacedim;
+  static constexpr int n_fields = Model::n_fields;
+  static constexpr int n_q      = ElementData<Model>::n_q;
+
+  /// The arguments have to outlive the assembler. Collective.
+  /// @throws InvalidParameter   a degenerate element, a toughness that is not positive: on all ranks
+  Assembler(const Model                        &model,
+            const ShellSpace<degree, spacedim> &space,
+            std::shared_ptr<const Distribution> distribution);
+
+  const Model                               &model() const { return *model_; }
+  const ShellSpace<degree, spacedim>        &space() const { return *space_; }
+  const std::shared_ptr<const Distribution> &distribution() const { return distribution_; }
+
+  /// Shortest element edge of the whole reference surface [length], theory F.3.
+  double shortest_edge() const { return shortest_edge_; }
+
+  /// int Gc/(2 l0) N_A dA of every owned control point, the scale of its phase residual (theory F.2), shape=(n_owned).
+  const std::vector<double> &phase_scale() const { return phase_scale_; }
+
+  /// int N_A dA of every owned control point [length^2], shape=(n_owned).
+  const std::vector<double> &point_area() const { return point_area_; }
+
+  /// Matrix with the graph of the space, zero.
+  Matrix make_matrix() const { return Matrix(distribution_, space_->distribution().graph, n_fields); }
+
+  /// Internal and inertial forces and the phase residual on the owned control points, block n_fields.
+  void force(const BalanceLevel &level, const QuadratureField &history, Vector &force) const;
+
+  /// The same and the tangent; mass_weight * M is added to its displacement block.
+  void linearise(const BalanceLevel    &level,
+                 const QuadratureField &history,
+                 double                 mass_weight,
+                 PhaseTangent           phase_tangent,
+                 Vector                &force,
+                 Matrix                &matrix) const;
+
+  /// M in the displacement block, 1 on the diagonal of the phase.
+  void mass_matrix(Matrix &matrix) const;
+
+  /// External forces at @p time added to the displacement part of @p force, block n_fields.
+  void add_loads(const Loads<spacedim> &loads, double time, Vector &force) const;
+
+  /// Energies at the end of a step that began at phase @p previous, summed over ranks. Collective.
+  Energies
+  energies(const Vector &position, const Vector &velocity, const Vector &phase, const Vector &previous,
+           const QuadratureField &history) const;
+
+  /// The history after a step: max(H, Psi+) of the level, by the irreversibility rule of the model.
+  QuadratureField committed(const BalanceLevel &level, const QuadratureField &history) const;
+
+  /// Elements with suspect quadrature points, theory C.2 1. Local.
+  SuspectElements suspects(const BalanceLevel &level, const QuadratureField &history) const;
+
+  /// int_e Psi dA / int_e dA with Psi = g Psi+ + Psi- (elastic) and Psi_frac (fracture) of every owned active element.
+  struct ElementDensities
+  {
+    double elastic, fracture;
+  };
+  std::vector<ElementDensities> densities(const Vector &position, const Vector &phase) const;
+
+  /// Position X of quadrature point @p q of active element @p e.
+  Point<spacedim> quadrature_position(int e, int q) const { return elements_[e].geometry.position(q); }
+
+private:
+  ElementFields<Model> fields(int active, const Vector &position, const Vector &rate, const Vector &phase) const;
+  void                 scatter_force(int active, const ElementVector<Model> &f, const RowRange &range, Vector &force) const;
+  void scatter_matrix(int active, const ElementMatrix<Model> &k, const RowRange &range, Matrix &matrix) const;
+
+  const Model                        *model_;
+  const ShellSpace<degree, spacedim> *space_;
+  std::shared_ptr<const Distribution> distribution_;
+  std::vector<ElementData<Model>>     elements_;
+  ScatterMap                          scatter_;
+  std::vector<RowRange>               ranges_;
+  double                              shortest_edge_;
+  std::vector<double>                 phase_scale_, point_area_;
+};
+
+} // namespace sherd
+
+#include <sherd/assembly/assembler.templates.h>

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <sherd/base/types.h>
+#include <sherd/geometry/shape_values.h>
+
+namespace sherd
+{
+
+/// Bernstein coefficients of the fields of one element, index order [component][b].
+template <class Model>
+struct ElementFields
+{
+  static constexpr int n_b = ShapeValues<Model::degree>::n_functions;
+
+  alignas(64) double position[Model::spacedim][n_b];     ///< x at the level of the balance of momentum
+  alignas(64) double acceleration[Model::spacedim][n_b]; ///< a at its level, [length/time^2]
+  alignas(64) double phase[n_b];                         ///< phi at its level
+};
+
+/// Element vector in Bernstein form, index order [field][b]; the fields are the displacements, then the phase.
+template <class Model>
+struct ElementVector
+{
+  static constexpr int n_b = ShapeValues<Model::degree>::n_functions;
+
+  alignas(64) double value[Model::n_fields][n_b];
+};
+
+/// Element matrix in Bernstein form: row field*n_b + b, column likewise. Columns are padded to whole vector registers;
+/// the padding holds zeros.
+template <class Model>
+struct ElementMatrix
+{
+  static constexpr int n_b    = ShapeValues<Model::degree>::n_functions;
+  static constexpr int size   = Model::n_fields * n_b;
+  static constexpr int stride = (size + 2 + 7) / 8 * 8;
+
+  alignas(64) double value[size][stride];
+};
+
+/// C += A^T B with A: rows x M, B: rows x N, C: M x N, all by rows with the given strides.
+template <int M, int N>
+inline void
+add_transposed_product(int rows, const double *A, int stride_a, const double *B, int stride_b, double *C, int stride_c)
+{
+  for (int i = 0; i < M; ++i)
+    {
+      double sum[N] = {};
+      for (int r = 0; r < rows; ++r)
+        {
+          const double factor = A[r * stride_a + i];
+          for (int j = 0; j < N; ++j)
+            sum[j] += factor * B[r * stride_b + j];
+        }
+      for (int j = 0; j < N; ++j)
+        C[i * stride_c + j] += sum[j];
+    }
+}
+
+} // namespace sherd

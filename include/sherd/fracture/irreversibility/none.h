@@ -1,0 +1,20 @@
+#pragma once
+
+#include <sherd/fracture/irreversibility/irreversibility.h>
+
+namespace sherd::irreversibility
+{
+
+/// No memory: the present energy drives the phase, and cracks heal when unloaded.
+///
+/// For studies in which nothing unloads. An initial history is forgotten too, so that a pre-crack must be part of the
+/// geometry or of the supports.
+struct None
+{
+  double trial(const double, const double energy) const { return energy; }
+  bool   is_loading(const double, const double) const { return true; }
+};
+
+static_assert(Irreversibility<None>);
+
+} // namespace sherd::irreversibility

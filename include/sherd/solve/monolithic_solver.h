@@ -1,0 +1,131 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <sherd/algebra/linear_solver.h>
+#include <sherd/assembly/assembler.h>
+#include <sherd/base/timers.h>
+#include <sherd/material/wave_speeds.h>
+#include <sherd/solve/newton_settings.h>
+#include <sherd/space/supports.h>
+#include <sherd/time/integrator.h>
+#include <sherd/time/update.h>
+
+namespace sherd
+{
+
+/// What an attempt at one step came to.
+template <int degree, int spacedim>
+struct StepResult
+{
+  /// The state at the end of the step, its history committed; nothing if the step has to be rejected.
+  std::optional<State<degree, spacedim>> state;
+  std::string                            failure; ///< why there is none
+  int                                    newton   = 0; ///< consistent Newton iterations, n_NR of paper Eq. (13)
+  int                                    linear   = 0; ///< linear iterations, all together
+  int                                    switched = 0; ///< branch switches (theory C.2 2)
+  double                                 external_work = 0.; ///< by loads and supports over the step [energy]
+  double                                 largest_phase = 0.; ///< at a quadrature point
+  std::vector<double>                    residuals; ///< |r_u| and |r_phi| relative to their tolerances, larger one
+  std::vector<std::string>               messages;  ///< escalations of the linear solver, one line each
+};
+
+/// Solves displacement and phase of one implicit step together by Newton's method with the full tangent, and makes sure
+/// that what it converged to is a stable state.
+///
+/// A step: predictor (constant velocity, linearly extrapolated phase), Newton on
+/// (dy, dphi) with dy = alpha_f dx (theory F.2), branch check; if the check fails a branch switch at the same step size
+/// (theory C.2). A state that fails both, or that does not converge, or that is not finite is never returned.
+///
+/// The arguments of the constructor have to outlive the solver.
+template <class Model, TimeIntegrator Integrator>
+class MonolithicSolver
+{
+public:
+  static constexpr int degree   = Model::degree;
+  static constexpr int spacedim = Model::spacedim;
+  static constexpr int n_fields = Model::n_fields;
+  using StateType               = State<degree, spacedim>;
+  using Result                  = StepResult<degree, spacedim>;
+
+  MonolithicSolver(const Model                        &model,
+                   const ShellSpace<degree, spacedim> &space,
+                   const Supports                     &supports,
+                   const Loads<spacedim>              &loads,
+                   const Integrator                   &integrator,
+                   const NewtonSettings               &settings);
+
+  /// Prepares for the present mesh of the space and the distribution of @p state. Call it first and after each
+  /// refinement. Collective.
+  void rebuild(const StateType &state);
+
+  const Assembler<Model>             &assembler() const { return *assembler_; }
+  const ShellSpace<degree, spacedim> &space() const { return *space_; }
+  const Model                        &model() const { return *model_; }
+
+  /// Solves the phase equation at the displacement of @p state, from its phase, with its history. Collective.
+  /// @throws NoConvergence
+  void equilibrate_phase(StateType &state);
+
+  /// Solves M a = f_ext - f_int at the time of @p state. Collective.
+  void set_initial_acceleration(StateType &state);
+
+  /// Attempts the step from @p state to state.time + dt. Collective. Throws only what no smaller step could mend.
+  Result attempt(const StateType &state, double dt);
+
+  /// Energies at the end of a step that began at phase @p previous. Collective.
+  Energies energies(const StateType &state, const Vector &previous) const
+  {
+    return assembler_->energies(state.position, state.velocity, state.phase, previous, state.history);
+  }
+
+  /// Sum of the internal and inertial forces on a named edge, at the end of the last attempted step: what its supports
+  /// and loads exert on the surface, shape=(spacedim). Collective.
+  Point<spacedim> reaction(const std::string &edge) const;
+
+  /// c_R of the undamaged surface (theory F.3).
+  double rayleigh_speed() const
+  {
+    return wave_speeds(model_->split.bulk(), model_->split.shear(), model_->mass).rayleigh;
+  }
+
+  PhaseTimers &timers() { return timers_; }
+
+private:
+  struct System;
+  struct Norms
+  {
+    double displacement, phase; ///< relative to their tolerances
+    double larger() const { return std::max(displacement, phase); }
+  };
+
+  bool   find_stable_state(System &system, Result &result);
+  bool   iterate(System &system, Result &result);
+  void   leave_false_branch(System &system, Result &result);
+  bool   on_stable_branch(System &system, Result &result);
+  Norms  linearise(System &system, PhaseTangent tangent);
+  void   solve_increment(System &system, Result &result);
+  void   constrain_rows(const std::vector<char> &fixed);
+  double supported_position(const Constraint &constraint, double time) const;
+
+  const Model                        *model_;
+  const ShellSpace<degree, spacedim> *space_;
+  const Supports                     *supports_;
+  const Loads<spacedim>              *loads_;
+  Integrator                          integrator_;
+  NewtonSettings                      settings_;
+
+  std::optional<Assembler<Model>> assembler_;
+  std::optional<Matrix>           matrix_;
+  LinearSolver                    linear_solver_;
+  std::vector<Constraint>         constraints_;
+  std::vector<char>               fixed_; ///< 1 for a supported unknown, shape=(n_owned * n_fields)
+  std::optional<Vector>           total_force_;
+  PhaseTimers                     timers_;
+};
+
+} // namespace sherd
+
+#include <sherd/solve/monolithic_solver.templates.h>

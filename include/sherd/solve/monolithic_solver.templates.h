@@ -1,0 +1,376 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <sherd/fracture/branch.h>
+#include <sherd/solve/definiteness.h>
+#include <sherd/solve/monolithic_solver.h>
+
+namespace sherd
+{
+
+/// The nonlinear system of one step and its present iterate.
+template <class Model, TimeIntegrator Integrator>
+struct MonolithicSolver<Model, Integrator>::System
+{
+  Stage                    stage;
+  const Motion            &old;
+  Motion                   next;
+  Vector                   phase;
+  const QuadratureField   &history;
+  const std::vector<char> &fixed; ///< 1 for an unknown that does not move, shape=(n_owned * n_fields)
+  Vector                   load;  ///< f_ext at its level, block n_fields
+
+  Vector position;     ///< at n + alpha_f
+  Vector acceleration; ///< at n + alpha_m
+  Vector residual;     ///< block n_fields
+  Vector increment;    ///< block n_fields
+
+  System(const Stage             &stage_,
+         const Motion            &old_,
+         Motion                   next_,
+         Vector                   phase_,
+         const QuadratureField   &history_,
+         const std::vector<char> &fixed_,
+         Vector                   load_)
+      : stage(stage_), old(old_), next(std::move(next_)), phase(std::move(phase_)), history(history_), fixed(fixed_),
+        load(std::move(load_)), position(next.position), acceleration(next.acceleration), residual(load),
+        increment(load)
+  {
+    update_levels();
+  }
+
+  void update_levels()
+  {
+    update_rates(stage, old, next);
+    position     = interpolate(stage.alpha_f, old.position, next.position);
+    acceleration = interpolate(stage.alpha_m, old.acceleration, next.acceleration);
+  }
+
+  BalanceLevel level() const { return {position, acceleration, phase}; }
+
+  /// Adds the increment; the phase part is scaled down to @p largest_phase_step.
+  void advance(double largest_phase_step)
+  {
+    const auto d     = increment.local();
+    const auto n     = static_cast<std::size_t>(phase.distribution().n_local());
+    double     peak  = 0.;
+    for (std::size_t a = 0; a < n; ++a)
+      peak = std::max(peak, std::abs(d[a * n_fields + spacedim]));
+    MPI_Allreduce(MPI_IN_PLACE, &peak, 1, MPI_DOUBLE, MPI_MAX, phase.distribution().comm());
+    const double scale = peak > largest_phase_step ? largest_phase_step / peak : 1.;
+    for (std::size_t a = 0; a < n; ++a)
+      {
+        for (int c = 0; c < spacedim; ++c)
+          next.position.local()[a * spacedim + c] += d[a * n_fields + c] / stage.alpha_f;
+        phase.local()[a] += scale * d[a * n_fields + spacedim];
+      }
+    update_levels();
+  }
+};
+
+template <class Model, TimeIntegrator Integrator>
+MonolithicSolver<Model, Integrator>::MonolithicSolver(const Model                        &model,
+                                                      const ShellSpace<degree, spacedim> &space,
+                                                      const Supports                     &supports,
+                                                      const Loads<spacedim>              &loads,
+                                                      const Integrator                   &integrator,
+                                                      const NewtonSettings               &settings)
+    : model_(&model), space_(&space), supports_(&supports), loads_(&loads), integrator_(integrator),
+      settings_(settings), linear_solver_(settings.linear)
+{
+}
+
+template <class Model, TimeIntegrator Integrator>
+void MonolithicSolver<Model, Integrator>::rebuild(const StateType &state)
+{
+  const auto timing = timers_.measure("set-up");
+  assembler_.emplace(*model_, *space_, state.distribution);
+  matrix_.emplace(assembler_->make_matrix());
+  linear_solver_.forget();
+  constraints_ = constraints(*supports_, *space_);
+  fixed_.assign(state.distribution->n_owned() * n_fields, 0);
+  for (const auto &c : constraints_)
+    if (c.point < state.distribution->n_owned())
+      fixed_[c.point * n_fields + c.component] = 1;
+  total_force_.reset();
+}
+
+template <class Model, TimeIntegrator Integrator>
+typename MonolithicSolver<Model, Integrator>::Norms
+MonolithicSolver<Model, Integrator>::linearise(System &system, PhaseTangent tangent)
+{
+  const auto timing = timers_.measure("assembly");
+  Vector     force(assembler_->distribution(), n_fields);
+  assembler_->linearise(system.level(), system.history, system.stage.mass_weight(), tangent, force, *matrix_);
+
+  // Squared norms over the owned unknowns: residual, load, reaction of the supports, inertia (lumped).
+  double       sums[4] = {0., 0., 0., 0.};
+  double       peaks[2] = {0., 0.}; // scaled phase residual, extent of the body
+  const int    n_owned = assembler_->distribution()->n_owned();
+  const double nan     = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < n_owned; ++i)
+    {
+      for (int c = 0; c < spacedim; ++c)
+        {
+          const int    k             = i * n_fields + c;
+          const double residual      = system.load.local()[k] - force.local()[k];
+          const double inertia       = model_->mass * assembler_->point_area()[i] *
+                                 system.acceleration.local()[i * spacedim + c];
+          system.residual.local()[k] = system.fixed[k] ? 0. : residual;
+          sums[system.fixed[k] ? 2 : 0] += residual * residual;
+          sums[1] += system.load.local()[k] * system.load.local()[k];
+          sums[3] += inertia * inertia;
+          peaks[1] = std::max(peaks[1], std::abs(system.position.local()[i * spacedim + c]));
+        }
+      const int    k             = i * n_fields + spacedim;
+      const double residual      = -force.local()[k];
+      system.residual.local()[k] = residual;
+      const double scaled        = std::abs(residual) / assembler_->phase_scale()[i];
+      if (!(scaled <= peaks[0]))
+        peaks[0] = scaled;
+      if (std::isnan(scaled))
+        sums[0] = nan;
+    }
+  MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, assembler_->distribution()->comm());
+  MPI_Allreduce(MPI_IN_PLACE, peaks, 2, MPI_DOUBLE, MPI_MAX, assembler_->distribution()->comm());
+  total_force_ = std::move(force);
+
+  // Membrane forces cancel to rounding of the coordinates; below that a relative residual has no meaning.
+  const double n_unknowns = static_cast<double>(spacedim) * space_->surface().n_control_points();
+  const double floor      = 100. * std::numeric_limits<double>::epsilon() *
+                       (model_->split.bulk() + model_->split.shear()) * peaks[1] * std::sqrt(n_unknowns);
+  const double reference = std::sqrt(std::max({sums[1], sums[2], sums[3]}));
+  const double allowed   = settings_.displacement_tolerance * reference + floor;
+  return {std::isfinite(sums[0]) ? std::sqrt(sums[0]) / allowed : nan,
+          std::isfinite(sums[0]) ? peaks[0] / settings_.phase_tolerance : nan};
+}
+
+template <class Model, TimeIntegrator Integrator>
+void MonolithicSolver<Model, Integrator>::solve_increment(System &system, Result &result)
+{
+  constrain_rows(system.fixed);
+  const auto report = linear_solver_.solve(*matrix_, system.residual, system.increment);
+  result.linear += report.iterations;
+  if (report.escalated)
+    result.messages.push_back(report.message);
+}
+
+template <class Model, TimeIntegrator Integrator>
+void MonolithicSolver<Model, Integrator>::constrain_rows(const std::vector<char> &fixed)
+{
+  auto values = matrix_->values();
+  for (int a = 0; a < assembler_->distribution()->n_owned(); ++a)
+    for (int c = 0; c < n_fields; ++c)
+      if (fixed[a * n_fields + c])
+        {
+          const auto row   = matrix_->graph().row(a);
+          const auto k     = std::lower_bound(row.begin(), row.end(), a) - row.begin();
+          const auto start = values.begin() + matrix_->row_start(a) + c * matrix_->row_length(a);
+          const auto diagonal = start + k * n_fields + c;
+          const auto kept     = *diagonal;
+          std::fill(start, start + matrix_->row_length(a), 0.);
+          *diagonal = kept;
+        }
+}
+
+template <class Model, TimeIntegrator Integrator>
+bool MonolithicSolver<Model, Integrator>::iterate(System &system, Result &result)
+{
+  double early = 0.;
+  for (int i = 0;; ++i)
+    {
+      const Norms norms = linearise(system, PhaseTangent::consistent);
+      result.residuals.push_back(norms.larger());
+      if (!std::isfinite(norms.larger()))
+        result.failure = "the residual is not finite after " + std::to_string(i) + " Newton iterations";
+      else if (norms.larger() <= 1.)
+        return true;
+      else if (i <= 3)
+        early = norms.larger();
+      else if (norms.larger() > settings_.divergence * early)
+        result.failure = "Newton's iteration diverges";
+      if (result.failure.empty() && i == settings_.max_iterations)
+        result.failure = "no convergence in " + std::to_string(i) + " Newton iterations (residuals " +
+                         std::to_string(norms.displacement) + " and " + std::to_string(norms.phase) +
+                         " times the tolerances of displacement and phase)";
+      if (!result.failure.empty())
+        return false;
+      solve_increment(system, result);
+      system.advance(std::numeric_limits<double>::infinity());
+      ++result.newton;
+    }
+}
+
+template <class Model, TimeIntegrator Integrator>
+void MonolithicSolver<Model, Integrator>::leave_false_branch(System &system, Result &result)
+{
+  // Newton with a positive phase stiffness goes downhill; once its residual is small the consistent tangent finishes.
+  constexpr double close_enough = 100.;
+  ++result.switched;
+  for (int i = 0; i < settings_.max_switch_iterations; ++i)
+    {
+      const Norms norms = linearise(system, PhaseTangent::switched);
+      if (!std::isfinite(norms.larger()) || (i > 0 && norms.phase <= close_enough))
+        return;
+      solve_increment(system, result);
+      system.advance(branch::largest_phase_step);
+    }
+}
+
+template <class Model, TimeIntegrator Integrator>
+bool MonolithicSolver<Model, Integrator>::on_stable_branch(System &system, Result &result)
+{
+  const auto timing   = timers_.measure("branch check");
+  const auto suspects = assembler_->suspects(system.level(), system.history);
+  double     largest  = suspects.largest_phase;
+  int        n        = static_cast<int>(suspects.active.size());
+  const auto comm     = assembler_->distribution()->comm();
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, comm);
+  MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT, MPI_SUM, comm);
+  result.largest_phase = largest;
+  if (n == 0)
+    return true;
+  std::vector<int> points;
+  for (const int e : suspects.active)
+    for (const int a : space_->points_of(e))
+      points.push_back(a);
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  return positive_definite(*matrix_, spacedim, points);
+}
+
+template <class Model, TimeIntegrator Integrator>
+bool MonolithicSolver<Model, Integrator>::find_stable_state(System &system, Result &result)
+{
+  try
+    {
+      if (!iterate(system, result))
+        return false;
+      if (on_stable_branch(system, result))
+        return true;
+      leave_false_branch(system, result);
+      if (!iterate(system, result))
+        return false;
+      if (on_stable_branch(system, result))
+        return true;
+      result.failure = "the step converged to the unstable branch of the phase equation, also after a branch switch";
+    }
+  catch (const NoConvergence &error)
+    {
+      result.failure = error.what();
+    }
+  return false;
+}
+
+template <class Model, TimeIntegrator Integrator>
+typename MonolithicSolver<Model, Integrator>::Result
+MonolithicSolver<Model, Integrator>::attempt(const StateType &state, double dt)
+{
+  const double previous_dt = state.step_size > 0. ? state.step_size : dt;
+  const Stage  stage       = integrator_.stage(dt, previous_dt);
+  const Motion old{state.position, state.velocity, state.acceleration};
+  Motion       next = predict(stage, old);
+  for (const auto &c : constraints_)
+    next.position.local()[c.point * spacedim + c.component] = supported_position(c, state.time + dt);
+
+  Vector phase = state.phase;
+  for (std::size_t a = 0; a < phase.local().size(); ++a)
+    phase.local()[a] += dt / previous_dt * (state.phase.local()[a] - state.previous_phase.local()[a]);
+
+  Vector load(assembler_->distribution(), n_fields);
+  assembler_->add_loads(*loads_, state.time + stage.alpha_f * dt, load);
+
+  System system(stage, old, std::move(next), std::move(phase), state.history, fixed_, load);
+  Result result;
+  if (!find_stable_state(system, result))
+    return result;
+
+  StateType accepted      = state;
+  accepted.position       = system.next.position;
+  accepted.velocity       = system.next.velocity;
+  accepted.acceleration   = system.next.acceleration;
+  accepted.previous_phase = state.phase;
+  accepted.phase          = system.phase;
+  accepted.history        = assembler_->committed(system.level(), state.history);
+  accepted.time           = state.time + dt;
+  accepted.step_size      = dt;
+  accepted.step           = state.step + 1;
+
+  // Work of loads and supports over the step, at the level at which the integrator balances them.
+  for (int i = 0; i < assembler_->distribution()->n_owned(); ++i)
+    for (int c = 0; c < spacedim; ++c)
+      {
+        const int    k    = i * n_fields + c;
+        const double move = accepted.position.local()[i * spacedim + c] - state.position.local()[i * spacedim + c];
+        result.external_work += (fixed_[k] ? total_force_->local()[k] : load.local()[k]) * move;
+      }
+  MPI_Allreduce(MPI_IN_PLACE, &result.external_work, 1, MPI_DOUBLE, MPI_SUM, assembler_->distribution()->comm());
+  result.state = std::move(accepted);
+  return result;
+}
+
+template <class Model, TimeIntegrator Integrator>
+double MonolithicSolver<Model, Integrator>::supported_position(const Constraint &c, double time) const
+{
+  const auto  point = assembler_->distribution()->global(c.point);
+  const auto [p, i] = space_->surface().locate_point(static_cast<int>(point));
+  return space_->surface().patch(p).control_points(i, c.component) + supports_->list()[c.support].displacement(time);
+}
+
+template <class Model, TimeIntegrator Integrator>
+void MonolithicSolver<Model, Integrator>::equilibrate_phase(StateType &state)
+{
+  // All displacements fixed, at a level that is the state itself: only the phase moves.
+  std::vector<char> fixed(fixed_.size(), 1);
+  for (std::size_t i = spacedim; i < fixed.size(); i += n_fields)
+    fixed[i] = 0;
+  const Motion frozen{state.position, state.velocity, state.acceleration};
+  const Stage  here{1., 1., 1., 1., 1.};
+  System       system(here, frozen, frozen, state.phase, state.history, fixed,
+                Vector(assembler_->distribution(), n_fields));
+  Result       result;
+  if (!find_stable_state(system, result))
+    throw NoConvergence("initial phase field: " + result.failure);
+  state.phase          = system.phase;
+  state.previous_phase = system.phase;
+}
+
+template <class Model, TimeIntegrator Integrator>
+void MonolithicSolver<Model, Integrator>::set_initial_acceleration(StateType &state)
+{
+  Vector force(assembler_->distribution(), n_fields), acceleration(assembler_->distribution(), n_fields);
+  Vector residual(assembler_->distribution(), n_fields);
+  Vector zero = state.acceleration;
+  zero.fill(0.);
+  assembler_->force({state.position, zero, state.phase}, state.history, force);
+  assembler_->add_loads(*loads_, state.time, residual);
+  for (std::size_t k = 0; k < residual.owned().size(); ++k)
+    residual.local()[k] = fixed_[k] || k % n_fields == spacedim ? 0. : residual.local()[k] - force.local()[k];
+  assembler_->mass_matrix(*matrix_);
+  constrain_rows(fixed_);
+  auto settings      = settings_.linear;
+  settings.tolerance = 1e-12;
+  LinearSolver(settings).solve(*matrix_, residual, acceleration);
+  for (int a = 0; a < assembler_->distribution()->n_local(); ++a)
+    for (int c = 0; c < spacedim; ++c)
+      state.acceleration.local()[a * spacedim + c] = acceleration.local()[a * n_fields + c];
+}
+
+template <class Model, TimeIntegrator Integrator>
+auto MonolithicSolver<Model, Integrator>::reaction(const std::string &edge) const -> Point<spacedim>
+{
+  Point<spacedim> sum = Point<spacedim>::Zero();
+  if (total_force_)
+    for (const auto &side : space_->surface().edge(edge))
+      for (const int point : points_along(space_->surface(), side))
+        if (const int a = space_->distribution().local[point]; a >= 0 && a < assembler_->distribution()->n_owned())
+          for (int c = 0; c < spacedim; ++c)
+            sum[c] += total_force_->local()[a * n_fields + c];
+  MPI_Allreduce(MPI_IN_PLACE, sum.data(), spacedim, MPI_DOUBLE, MPI_SUM, assembler_->distribution()->comm());
+  return sum;
+}
+
+} // namespace sherd

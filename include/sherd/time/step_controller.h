@@ -1,0 +1,84 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+#include <sherd/base/exceptions.h>
+
+namespace sherd
+{
+
+/// Factors of the step size, paper Eq. (13), and what happens on rejection (theory F.3, F.4).
+struct StepControlSettings
+{
+  double initial          = 0.;   ///< first step [time], > 0
+  double few              = 1.5;  ///< fewer than 4 Newton iterations
+  double normal           = 1.1;  ///< 4 iterations
+  double many             = .5;   ///< more than 4
+  double refined          = .2;   ///< after local refinement
+  double rejected         = .5;   ///< first retry
+  double rejected_again   = .2;   ///< later retries
+  double courant          = .99;  ///< dt_max = courant * dx_min / (0.6 c_R)
+  double smallest         = 1e-8; ///< dt_min / dt_max, below which a run ends
+};
+
+/// Step sizes from the number of Newton iterations, paper Eq. (13), bounded by dt_max = dx_min / (0.6 c_R): a crack tip
+/// stays below 0.6 c_R and so crosses at most one element a step.
+class StepController
+{
+public:
+  /// @throws InvalidParameter   unless the first step is positive
+  explicit StepController(const StepControlSettings &settings) : settings_(settings), dt_(settings.initial)
+  {
+    if (!(settings.initial > 0.))
+      throw InvalidParameter("time.initial_step = " + std::to_string(settings.initial) + ", expected a time > 0");
+  }
+
+  /// The bound follows the mesh. @param shortest_edge dx_min [length]  @param rayleigh_speed c_R [length/time]
+  void bound(double shortest_edge, double rayleigh_speed)
+  {
+    largest_ = settings_.courant * shortest_edge / (.6 * rayleigh_speed);
+    dt_      = std::min(dt_, largest_);
+  }
+
+  double step() const { return dt_; }
+  double largest() const { return largest_; }
+
+  /// Step to take so that @p remaining is not overshot: the last step ends exactly, and none is left that is tiny.
+  double step_within(double remaining) const
+  {
+    if (dt_ >= remaining * (1. - 1e-10))
+      return remaining;
+    return dt_ > .5 * remaining ? .5 * remaining : dt_;
+  }
+
+  /// After an accepted step of @p newton iterations.
+  void accept(int newton)
+  {
+    retries_ = 0;
+    scale(newton < 4 ? settings_.few : newton == 4 ? settings_.normal : settings_.many);
+  }
+
+  /// After a refinement of the mesh.
+  void refine() { scale(settings_.refined); }
+
+  /// After a rejected step. @throws NoConvergence   when the step falls below dt_min; @p why is part of the message
+  void reject(const std::string &why)
+  {
+    scale(retries_++ == 0 ? settings_.rejected : settings_.rejected_again);
+    if (dt_ < settings_.smallest * largest_)
+      throw NoConvergence("the step size fell to " + std::to_string(dt_ / largest_) + " of its bound after " +
+                          std::to_string(retries_) + " rejections: " + why +
+                          "; try a finer mesh at the crack, a smaller load step or degradation::Quadratic");
+  }
+
+private:
+  void scale(double factor) { dt_ = std::min(dt_ * factor, largest_); }
+
+  StepControlSettings settings_;
+  double              dt_;
+  double              largest_ = 1e300;
+  int                 retries_ = 0;
+};
+
+} // namespace sherd

@@ -1,0 +1,106 @@
+#include <sherd/algebra/matrix.h>
+
+#include <algorithm>
+#include <string>
+
+#include <sherd/base/exceptions.h>
+
+namespace sherd
+{
+
+namespace
+{
+
+void check(const Distribution &distribution, const SparseGraph &graph, int block_size)
+{
+  if (block_size < 1 || block_size > 4)
+    throw InvalidParameter("block size of a matrix = " + std::to_string(block_size) + ", expected 1 to 4");
+  if (graph.n_rows() != distribution.n_owned())
+    throw DimensionMismatch("matrix graph has " + std::to_string(graph.n_rows()) + " rows, expected one for each of " +
+                            std::to_string(distribution.n_owned()) + " owned control points");
+  for (int A = 0; A < graph.n_rows(); ++A)
+    {
+      const auto        row  = graph.row(A);
+      const std::string name = "matrix graph, row of control point " + std::to_string(distribution.global(A));
+      for (std::size_t k = 0; k < row.size(); ++k)
+        {
+          if (row[k] < 0 || row[k] >= distribution.n_local())
+            throw DimensionMismatch(name + ": column " + std::to_string(row[k]) +
+                                    ", expected a local control point in [0, " +
+                                    std::to_string(distribution.n_local()) + ")");
+          if (k > 0 && row[k] <= row[k - 1])
+            throw InvalidParameter(name + ": column " + std::to_string(row[k]) + " after " +
+                                   std::to_string(row[k - 1]) + ", expected ascending columns");
+        }
+      if (!std::binary_search(row.begin(), row.end(), A))
+        throw InvalidParameter(name + " has no diagonal block");
+    }
+}
+
+template <int block_size>
+void multiply_blocks(const SparseGraph &graph, const double *values, const double *x, double *y)
+{
+  const int n_rows = graph.n_rows();
+#pragma omp parallel for schedule(static) if (n_rows > 1000)
+  for (int A = 0; A < n_rows; ++A)
+    {
+      const int     first = graph.offsets[A], n_blocks = graph.offsets[A + 1] - first, length = n_blocks * block_size;
+      const double *row             = values + static_cast<std::size_t>(first) * block_size * block_size;
+      double        sum[block_size] = {};
+      for (int k = 0; k < n_blocks; ++k)
+        {
+          const double *in = x + static_cast<std::size_t>(graph.columns[first + k]) * block_size;
+          for (int c = 0; c < block_size; ++c)
+            for (int d = 0; d < block_size; ++d)
+              sum[c] += row[c * length + k * block_size + d] * in[d];
+        }
+      for (int c = 0; c < block_size; ++c)
+        y[static_cast<std::size_t>(A) * block_size + c] = sum[c];
+    }
+}
+
+} // namespace
+
+Matrix::Matrix(std::shared_ptr<const Distribution> distribution, SparseGraph graph, int block_size)
+    : distribution_(std::move(distribution)), block_size_(block_size)
+{
+  check(*distribution_, graph, block_size);
+  graph_ = std::make_shared<const SparseGraph>(std::move(graph));
+  values_.assign(row_start(graph_->n_rows()), 0.);
+}
+
+void Matrix::set_zero()
+{
+  std::fill(values_.begin(), values_.end(), 0.);
+}
+
+void Matrix::multiply(const Vector &x, Vector &y) const
+{
+  if (x.block_size() != block_size_ || y.block_size() != block_size_)
+    throw DimensionMismatch("matrix of block size " + std::to_string(block_size_) + " times a vector of block size " +
+                            std::to_string(x.block_size()) + " into one of " + std::to_string(y.block_size()));
+  multiply(x.local(), y.owned());
+}
+
+void Matrix::multiply(std::span<const double> x, std::span<double> y) const
+{
+  const auto n_local = static_cast<std::size_t>(distribution_->n_local()) * block_size_;
+  const auto n_owned = static_cast<std::size_t>(distribution_->n_owned()) * block_size_;
+  if (x.size() != n_local || y.size() != n_owned)
+    throw DimensionMismatch("matrix with " + std::to_string(n_owned) + " rows and " + std::to_string(n_local) +
+                            " columns on this rank times " + std::to_string(x.size()) + " values into " +
+                            std::to_string(y.size()));
+  switch (block_size_)
+    {
+    case 1:
+      return multiply_blocks<1>(*graph_, values_.data(), x.data(), y.data());
+    case 2:
+      return multiply_blocks<2>(*graph_, values_.data(), x.data(), y.data());
+    case 3:
+      return multiply_blocks<3>(*graph_, values_.data(), x.data(), y.data());
+    default:
+      return multiply_blocks<4>(*graph_, values_.data(), x.data(), y.data());
+    }
+}
+
+} // namespace sherd

@@ -1,0 +1,75 @@
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "exchange.h"
+#include "factorisation.h"
+#include <sherd/algebra/block_ilu.h>
+#include <sherd/base/collective.h>
+
+namespace sherd
+{
+
+namespace
+{
+
+class PointBlockIlu final : public Factorisation
+{
+public:
+  PointBlockIlu(int fill_level, int overlap) : fill_level_(fill_level), overlap_(overlap) {}
+
+  void compute(const Matrix &matrix) override
+  {
+    const auto &distribution = matrix.distribution();
+    const bool  overlapping  = overlap_ > 0 && distribution.n_ranks() > 1;
+    if (matrix.shared_graph() != graph_ || matrix.block_size() != factors_->block_size())
+      {
+        graph_.reset();
+        distribution_ = matrix.shared_distribution();
+        ghost_rows_.reset();
+        if (overlapping)
+          ghost_rows_.emplace(distribution, matrix.graph());
+        collectively(distribution.comm(), [&] {
+          factors_.emplace(overlapping ? ghost_rows_->extended_graph() : matrix.graph(), matrix.block_size(),
+                           fill_level_);
+        });
+        graph_ = matrix.shared_graph();
+      }
+    const auto ghost_values = overlapping ? ghost_rows_->fetch(matrix) : std::vector<double>();
+    collectively(distribution.comm(), [&] {
+      factors_->factor(overlapping ? ghost_rows_->extended_graph() : matrix.graph(), matrix.values(), ghost_values);
+    });
+  }
+
+  void apply(std::span<const double> r, std::span<double> z) override
+  {
+    if (!ghost_rows_)
+      {
+        std::copy(r.begin(), r.end(), z.begin());
+        factors_->solve(z);
+        return;
+      }
+    work_.resize(static_cast<std::size_t>(factors_->n_rows()) * factors_->block_size());
+    std::copy(r.begin(), r.end(), work_.begin());
+    update_ghost_values(*distribution_, work_, factors_->block_size());
+    factors_->solve(work_);
+    std::copy_n(work_.begin(), z.size(), z.begin());
+  }
+
+private:
+  int                                 fill_level_, overlap_;
+  std::shared_ptr<const Distribution> distribution_;
+  std::shared_ptr<const SparseGraph>  graph_; ///< the factors' symbolic phase belongs to it
+  std::optional<GhostRows>            ghost_rows_;
+  std::optional<BlockIlu>             factors_;
+  std::vector<double>                 work_;
+};
+
+} // namespace
+
+std::unique_ptr<Factorisation> make_point_block_ilu(int fill_level, int overlap)
+{
+  return std::make_unique<PointBlockIlu>(fill_level, overlap);
+}
+
+} // namespace sherd

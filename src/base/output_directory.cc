@@ -1,0 +1,100 @@
+#include <sherd/base/output_directory.h>
+
+#include <algorithm>
+
+#include <sherd/base/collective.h>
+
+namespace sherd
+{
+namespace fs = std::filesystem;
+
+namespace
+{
+
+constexpr const char *frames_folder = "frames";
+
+bool is_frame(const fs::path &file)
+{
+  const auto stem = file.stem().string();
+  return file.extension() == ".vtu" && stem.size() >= 6 && stem.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// Turns errors of the file system into ours.
+template <class Task>
+void with_file_errors(const fs::path &path, const Task &task)
+{
+  try
+    {
+      task();
+    }
+  catch (const fs::filesystem_error &e)
+    {
+      throw FileError("output directory " + path.string() + ": " + e.code().message());
+    }
+}
+
+void check(const fs::path &path, const CommandLine &line)
+{
+  if (line.restart && !fs::exists(*line.restart))
+    throw FileError("--restart " + *line.restart + ": there is no such file");
+  if (fs::exists(path) && !fs::is_directory(path))
+    throw FileError("output directory " + path.string() + " is a file; choose another one with --output DIR");
+  if (line.restart || line.overwrite || line.check)
+    return;
+  if (const auto results = find_results(path); !results.empty())
+    throw FileError("output directory " + path.string() + " holds results already (" +
+                    results.front().filename().string() + " and " + std::to_string(results.size() - 1) +
+                    " more); choose another one with --output DIR, go on with --restart FILE, or remove them with "
+                    "--overwrite");
+}
+
+} // namespace
+
+OutputDirectory::OutputDirectory(const Environment &env) : env_(env), path_(env.command_line().output_directory)
+{
+  on_root(env_.comm(), [&] { with_file_errors(path_, [&] { check(path_, env_.command_line()); }); });
+}
+
+void OutputDirectory::prepare() const
+{
+  if (env_.command_line().check)
+    return;
+  on_root(env_.comm(), [&] {
+    with_file_errors(path_, [&] {
+      if (env_.command_line().overwrite)
+        for (const auto &file : find_results(path_))
+          fs::remove(file);
+      fs::create_directories(path_ / frames_folder);
+    });
+  });
+}
+
+fs::path OutputDirectory::frame(int n) const
+{
+  const auto digits = std::to_string(n);
+  return path_ / frames_folder / (std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits + ".vtu");
+}
+
+const std::vector<std::string> &result_files()
+{
+  static const std::vector<std::string> names{"used.yaml",  "history.csv",   "tips.csv",
+                                              "probes.csv", "summary.json",  "frames.pvd",
+                                              "fields.h5",  "checkpoint.h5", "checkpoint.previous.h5"};
+  return names;
+}
+
+std::vector<fs::path> find_results(const fs::path &directory)
+{
+  std::vector<fs::path> results;
+  for (const auto &name : result_files())
+    if (fs::exists(directory / name))
+      results.push_back(directory / name);
+  if (fs::is_directory(directory / frames_folder))
+    for (const auto &item : fs::directory_iterator(directory / frames_folder))
+      if (is_frame(item.path()))
+        results.push_back(item.path());
+  std::sort(results.begin(), results.end());
+  return results;
+}
+
+} // namespace sherd
