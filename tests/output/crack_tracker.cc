@@ -222,7 +222,8 @@ TEST_CASE("CrackTracker: a growing crack keeps its tip and has its speed", "[out
       if (step >= 5)
         CHECK(tracker.tree().tips()[0].speed == Approx(speed).epsilon(0.03));
       const Vector end = path(length) + cracks.half_width() * (path(length) - path(length - 1e-6)).normalized();
-      CHECK(distance_to_tip(tracker, end) < sample);
+      // The last part of the line is straight, about two band widths: it leaves a path of radius 1/3 by 1.3 samples.
+      CHECK(distance_to_tip(tracker, end) < (curvature == 0. ? 1. : 2.) * sample);
     }
 
   CHECK(tracker.tree().fastest()->id == 0);

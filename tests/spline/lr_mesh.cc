@@ -28,7 +28,8 @@ std::vector<MeshLine> inner_lines(const LRMesh &mesh)
 
 TEST_CASE("LRMesh: the tensor mesh has the lines of its knots", "[spline]")
 {
-  const std::array u{0., 0., 0., 1., 1., 2., 2., 2.}, v{5., 5., 5., 6., 6., 6.};
+  const std::array u{0., 0., 0., 1., 1., 2., 2., 2.};
+  const std::array v{5., 5., 5., 6., 6., 6.};
 
   const LRMesh mesh(u, v);
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <sherd/base/all_gather.h>
+#include <sherd/base/parameter_section.h>
 #include <sherd/fracture/branch.h>
 #include <sherd/geometry/element_geometry.h>
 #include <sherd/state/state.h>
@@ -19,6 +20,19 @@ struct RefinementSettings
   double halo             = 0.;   ///< functions this close to a triggering one are refined too [length]; 0: none
   double recompute_phase  = .9;   ///< a step that took phi below it on too coarse a mesh is repeated
   double history_fraction = .5;   ///< elements in which H exceeds this part of the onset density are refined; > 0
+
+  void declare(ParameterSection &section)
+  {
+    section.value("target", target, "length", range::positive(), "largest element edge at cracks, at most l0/2");
+    section.value("phase", phase, "-", range::left_open(0., 1.),
+                  "a control value below it refines the support of its function");
+    section.value("halo", halo, "length", range::non_negative(),
+                  "functions this close to a triggering one are refined with it; 0: none");
+    section.value("recompute_phase", recompute_phase, "-", range::closed(0., 1.),
+                  "a step that took the phase below it on too coarse a mesh is repeated");
+    section.value("history_fraction", history_fraction, "-", range::positive(),
+                  "elements whose driving energy exceeds this part of the onset of damage are refined");
+  }
 };
 
 /// Knot spans of the parameter domain that are as long as @p length on the reference surface, or shorter, everywhere.

@@ -6,6 +6,7 @@
 
 #include <sherd/algebra/matrix.h>
 #include <sherd/algebra/vector.h>
+#include <sherd/base/parameter_section.h>
 
 namespace sherd
 {
@@ -42,6 +43,26 @@ struct LinearSolverSettings
   int            max_iterations  = 500; ///< iterations allowed without escalation (never)
   int            restart         = 100; ///< size of the Krylov space
   int            retry_interval  = 20;  ///< solves after which an escalated solver tries the cheaper one again
+
+  void declare(ParameterSection &section)
+  {
+    section.choice("preconditioner", preconditioner,
+                   {{"point_block_ilu", Preconditioner::point_block_ilu},
+                    {"ifpack2_ilu", Preconditioner::ifpack2_ilu},
+                    {"mumps", Preconditioner::mumps}},
+                   "incomplete factors of point blocks, those of Ifpack2, or a direct solver");
+    section.value("fill_level", fill_level, range::non_negative(), "level of fill of the incomplete factors");
+    section.value("max_fill_level", max_fill_level, range::non_negative(), "largest level that escalation tries");
+    section.value("overlap", overlap, range::closed(0., 1.), "layers that neighbouring ranks share in their factors");
+    section.value("tolerance", tolerance, "-", range::open(0., 1.), "residual over right-hand side, equilibrated");
+    section.choice("escalation", escalation, {{"automatic", Escalation::automatic}, {"never", Escalation::never}},
+                   "whether a solver that fails is replaced by a stronger one");
+    section.value("iteration_limit", iteration_limit, range::at_least(1), "iterations before escalation");
+    section.value("max_iterations", max_iterations, range::at_least(1), "iterations allowed without escalation");
+    section.value("restart", restart, range::at_least(1), "size of the Krylov space");
+    section.value("retry_interval", retry_interval, range::at_least(1),
+                  "solves after which an escalated solver tries the cheaper one again");
+  }
 };
 
 /// What one solve took.

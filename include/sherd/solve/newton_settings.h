@@ -21,6 +21,20 @@ struct NewtonSettings
   int max_switch_iterations = 40;
 
   LinearSolverSettings linear;
+
+  void declare(ParameterSection &section)
+  {
+    section.value("displacement_tolerance", displacement_tolerance, "-", range::open(0., 1.),
+                  "residual of momentum over the largest of load, reaction and inertia");
+    section.value("phase_tolerance", phase_tolerance, "-", range::open(0., 1.),
+                  "residual of the phase over Gc/(2 l0) times the area of its control point");
+    section.value("max_iterations", max_iterations, range::at_least(1), "Newton iterations before a step is rejected");
+    section.value("divergence", divergence, "-", range::positive(),
+                  "growth of the residual at which a step is rejected");
+    section.value("max_switch_iterations", max_switch_iterations, range::at_least(1),
+                  "iterations of a switch to the stable branch of the phase equation");
+    section.subsection("linear", linear, "linear solver");
+  }
 };
 
 } // namespace sherd

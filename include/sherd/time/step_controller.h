@@ -4,6 +4,7 @@
 #include <string>
 
 #include <sherd/base/exceptions.h>
+#include <sherd/base/parameter_section.h>
 
 namespace sherd
 {
@@ -20,6 +21,19 @@ struct StepControlSettings
   double rejected_again   = .2;   ///< later retries
   double courant          = .99;  ///< dt_max = courant * dx_min / (0.6 c_R)
   double smallest         = 1e-8; ///< dt_min / dt_max, below which a run ends
+
+  void declare(ParameterSection &section)
+  {
+    section.value("initial", initial, "time", range::positive(), "first step");
+    section.value("few", few, "-", range::positive(), "factor after fewer than 4 Newton iterations");
+    section.value("normal", normal, "-", range::positive(), "factor after 4 iterations");
+    section.value("many", many, "-", range::left_open(0., 1.), "factor after more than 4 iterations");
+    section.value("refined", refined, "-", range::left_open(0., 1.), "factor after local refinement");
+    section.value("rejected", rejected, "-", range::open(0., 1.), "factor of the first retry of a rejected step");
+    section.value("rejected_again", rejected_again, "-", range::open(0., 1.), "factor of later retries");
+    section.value("courant", courant, "-", range::left_open(0., 1.), "largest step over dx_min / (0.6 c_R)");
+    section.value("smallest", smallest, "-", range::open(0., 1.), "smallest step over the largest; the run ends below");
+  }
 };
 
 /// Step sizes from the number of Newton iterations, paper Eq. (13), bounded by dt_max = dx_min / (0.6 c_R): a crack tip
