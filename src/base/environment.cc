@@ -70,6 +70,11 @@ ExitStatus exit_status(ErrorKind kind)
   return ExitStatus::unexpected;
 }
 
+std::string heading(ErrorKind kind)
+{
+  return kind == ErrorKind::stopped_early ? "stopped: " : "error: ";
+}
+
 /// True if all ranks of @p comm call this, false if @p patience ends first.
 bool all_arrive(MPI_Comm comm, std::chrono::duration<double> patience)
 {
@@ -101,7 +106,7 @@ Failure agree_or_abort(MPI_Comm comm, const Failure &local, std::ostream &err)
   // Ranks that fail together lose patience one after the other, so that one of them speaks for all.
   else if (!all_arrive(comm, std::chrono::duration<double>(3. + 0.2 * rank)))
     {
-      err << "error: " << local.message << " (on rank " << rank << " alone; other ranks wait for it)" << std::endl;
+      err << heading(local.kind) << local.message << " (on rank " << rank << "; others did not follow)" << std::endl;
       MPI_Abort(comm, static_cast<int>(exit_status(local.kind)));
     }
   return agree(comm, local);
@@ -147,7 +152,7 @@ ExitStatus execute(MPI_Comm comm, const std::string &name, std::span<const std::
   out << std::flush;
   const auto failure = agree_or_abort(reports, local, err);
   if (failure.kind != ErrorKind::none && rank == 0)
-    err << "error: " << failure.message << std::endl;
+    err << heading(failure.kind) << failure.message << std::endl;
   MPI_Comm_free(&reports);
   MPI_Comm_free(&world);
   return exit_status(failure.kind);

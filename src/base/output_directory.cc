@@ -42,9 +42,9 @@ void check(const fs::path &path, const CommandLine &line)
   if (line.restart || line.overwrite || line.check)
     return;
   if (const auto results = find_results(path); !results.empty())
-    throw FileError("output directory " + path.string() + " holds results already (" +
-                    results.front().filename().string() + " and " + std::to_string(results.size() - 1) +
-                    " more); choose another one with --output DIR, go on with --restart FILE, or remove them with "
+    throw FileError("output directory " + path.string() + " holds results already, for example " +
+                    results.front().filename().string() +
+                    "; choose another one with --output DIR, go on with --restart FILE, or remove them with "
                     "--overwrite");
 }
 

@@ -93,29 +93,34 @@ void write_section(const ParameterSection &section, const std::string &indent, s
     }
 }
 
+void describe_value(const Parameter &parameter, const std::string &path, std::string &out)
+{
+  auto value = yaml(parameter.write());
+  if (value.find("nan") != value.npos)
+    value = "(to be given)";
+  out += "  " + path + " = " + value + bracketed(parameter.unit) + "\n      " + parameter.meaning + "; " +
+         parameter.expected + "\n";
+}
+
+/// Values first, so that what follows a section's title belongs to it.
 void describe_section(const ParameterSection &section, const std::string &path, std::string &out)
 {
   for (const auto &entry : section.entries())
+    if (const auto *parameter = std::get_if<Parameter>(&entry))
+      describe_value(*parameter, path + parameter->name, out);
+
+  for (const auto &entry : section.entries())
     {
       const auto here = path + name(entry);
-      if (const auto *parameter = std::get_if<Parameter>(&entry))
+      if (const auto *list = std::get_if<ParameterList>(&entry))
         {
-          auto value = yaml(parameter->write());
-          if (value.find("nan") != value.npos)
-            value = "(to be given)";
-          out += "  " + here + " = " + value + bracketed(parameter->unit) + "\n      " + parameter->meaning + "; " +
-                 parameter->expected + "\n";
-        }
-      else if (const auto *list = std::get_if<ParameterList>(&entry))
-        {
-          out += "\n  " + here + ": list, " + list->meaning + "\n";
+          out += "\n" + here + ", a list: " + list->meaning + "\n";
           describe_section(list->example(), here + ".0.", out);
         }
-      else
+      else if (const auto *inner = std::get_if<ParameterSection>(&entry))
         {
-          const auto &inner = std::get<ParameterSection>(entry);
-          out += "\n  " + here + ": " + inner.meaning() + "\n";
-          describe_section(inner, here + ".", out);
+          out += "\n" + here + ": " + inner->meaning() + "\n";
+          describe_section(*inner, here + ".", out);
         }
     }
 }

@@ -107,7 +107,7 @@ private:
     const auto   drop  = [&](int n) {
       return is_end(n) && !is_at_side(node(n).point.lattice, half_width + 2.) ? 5. : 2. * half_width + 2.;
     };
-    double       s     = 0.;
+    double s = 0.;
     for (std::size_t k = 1; k + 1 < line.size(); ++k)
       {
         s += (line[k].lattice - line[k - 1].lattice).norm();
@@ -154,9 +154,8 @@ private:
       for (int side = 0; side < 2; ++side)
         if (raw_.arms[a].nodes[side] == n && !kept_[a].empty())
           {
-            const Line            line = line_at(static_cast<int>(a), side == 1);
-            const Eigen::Matrix2d projector =
-                Eigen::Matrix2d::Identity() - line.direction * line.direction.transpose();
+            const Line            line      = line_at(static_cast<int>(a), side == 1);
+            const Eigen::Matrix2d projector = Eigen::Matrix2d::Identity() - line.direction * line.direction.transpose();
             matrix += projector;
             rhs += projector * line.base;
             reach = std::max(reach, 4. * half_width_[a] + 2.);
@@ -179,7 +178,7 @@ private:
       }
     for (int k = 0; k < 20; ++k)
       {
-        const double middle                        = 0.5 * (inside + outside);
+        const double middle                 = 0.5 * (inside + outside);
         (broken(middle) ? inside : outside) = middle;
       }
     return inside;
@@ -227,8 +226,8 @@ private:
         for (int side = 0; side < 2; ++side)
           if (is_end(arm.nodes[side]))
             {
-              const Vector2d start = is_end(arm.nodes[1 - side]) ? kept_[a].front().lattice
-                                                                 : result_.nodes[out.nodes[1 - side]].point.lattice;
+              const Vector2d start                 = is_end(arm.nodes[1 - side]) ? kept_[a].front().lattice
+                                                                                 : result_.nodes[out.nodes[1 - side]].point.lattice;
               result_.nodes[out.nodes[side]].point = end_point(a, side == 1, start);
             }
         out.points.push_back(result_.nodes[out.nodes[0]].point.X);
@@ -265,8 +264,8 @@ private:
     const Vector2d base    = contour(axis.base, axis.direction) ? axis.base : seed.lattice;
     for (int side = 0; side < 2; ++side)
       {
-        const Vector2d direction        = side == 0 ? Vector2d(-axis.direction) : axis.direction;
-        const Vector2d end              = base + contour(base, direction).value_or(0.) * direction;
+        const Vector2d direction         = side == 0 ? Vector2d(-axis.direction) : axis.direction;
+        const Vector2d end               = base + contour(base, direction).value_or(0.) * direction;
         result_.nodes[nodes[side]].point = {end, field_.position(end)};
       }
     add({nodes, {result_.nodes[nodes[0]].point.X, field_.position(base), result_.nodes[nodes[1]].point.X}, 0.});

@@ -16,9 +16,9 @@ std::vector<int> CrackTracker::ends_inside() const
   const double     margin = 2. * options_.length_scale;
   std::vector<int> result;
   for (std::size_t n = 0; n < cracks_.nodes.size(); ++n)
-    if (cracks_.nodes[n].degree == 1 &&
-        std::none_of(body_edge_.begin(), body_edge_.end(),
-                     [&](const auto &X) { return (X - cracks_.nodes[n].point.X).norm() <= margin; }))
+    if (cracks_.nodes[n].degree == 1 && std::none_of(body_edge_.begin(), body_edge_.end(), [&](const auto &X) {
+          return (X - cracks_.nodes[n].point.X).norm() <= margin;
+        }))
       result.push_back(static_cast<int>(n));
   return result;
 }

@@ -43,8 +43,8 @@ Place closest_place(const CrackGraph &graph, const Eigen::Vector3d &X)
         {
           const Eigen::Vector3d edge   = points[k] - points[k - 1];
           const double          length = edge.norm();
-          const double          t = length > 0. ? std::clamp((X - points[k - 1]).dot(edge) / (length * length), 0., 1.) : 0.;
-          const double          distance = (X - points[k - 1] - t * edge).norm();
+          const double t = length > 0. ? std::clamp((X - points[k - 1]).dot(edge) / (length * length), 0., 1.) : 0.;
+          const double distance = (X - points[k - 1] - t * edge).norm();
           if (distance < best_distance)
             {
               best_distance = distance;
@@ -107,8 +107,7 @@ void validate(const CrackOptions &options)
                            ", expected a phase value in (0, 1); 0.1 is usual");
 }
 
-CrackTree::CrackTree(const CrackOptions &options)
-    : options_(options)
+CrackTree::CrackTree(const CrackOptions &options) : options_(options)
 {
   validate(options);
 }
@@ -140,14 +139,14 @@ void CrackTree::advance(const CrackGraph &graph, const std::vector<int> &ends, d
         if (const auto &tip = tips_.back(); tip.parent >= 0)
           {
             const auto &arm = graph.arms[arm_of_end(graph, end)];
-            branchings_.push_back({time, graph.nodes[arm.nodes[0] == end ? arm.nodes[1] : arm.nodes[0]].point.X,
-                                   tip.parent, tip.id});
+            branchings_.push_back(
+                {time, graph.nodes[arm.nodes[0] == end ? arm.nodes[1] : arm.nodes[0]].point.X, tip.parent, tip.id});
           }
       }
   for (const int end : ends)
     {
-      auto &tip  = tips_[tip_of[end]];
-      tip.X      = graph.nodes[end].point.X;
+      auto &tip = tips_[tip_of[end]];
+      tip.X     = graph.nodes[end].point.X;
       // Without a way to its anchor (a crack that has healed in between) a tip keeps its length.
       if (const double d = distance_to(graph, shortest_paths(graph, end), closest_place(graph, tip.anchor));
           std::isfinite(d))
@@ -159,8 +158,7 @@ void CrackTree::advance(const CrackGraph &graph, const std::vector<int> &ends, d
 
 void CrackTree::match(const CrackGraph &graph, const std::vector<int> &ends, double time, std::vector<int> &tip_of)
 {
-  const double limit =
-      8. * options_.length_scale + options_.rayleigh_speed * (time_ ? time - *time_ : 0.);
+  const double limit = 8. * options_.length_scale + options_.rayleigh_speed * (time_ ? time - *time_ : 0.);
   std::vector<std::tuple<double, int, int>> pairs;
   for (const auto &tip : tips_)
     if (tip.active)
@@ -181,7 +179,8 @@ void CrackTree::match(const CrackGraph &graph, const std::vector<int> &ends, dou
 
 void CrackTree::add(const CrackGraph &graph, const std::vector<int> &ends, int end, const std::vector<int> &tip_of)
 {
-  CrackTip tip{static_cast<int>(tips_.size()), -1, true, graph.nodes[end].point.X, graph.nodes[end].point.X, 0., 0., {}};
+  CrackTip   tip{static_cast<int>(tips_.size()), -1, true, graph.nodes[end].point.X,
+               graph.nodes[end].point.X,       0., 0.,   {}};
   const auto paths = shortest_paths(graph, end);
   const auto nodes = static_cast<int>(graph.nodes.size());
   int        next = -1, edge_end = -1, farthest = -1;
@@ -204,7 +203,8 @@ void CrackTree::add(const CrackGraph &graph, const std::vector<int> &ends, int e
     {
       for (int n = 0; n < nodes; ++n)
         if (graph.nodes[n].degree == 1 && std::isfinite(paths.distance[n]) &&
-            std::find(ends.begin(), ends.end(), n) == ends.end() && (edge_end < 0 || paths.distance[n] < paths.distance[edge_end]))
+            std::find(ends.begin(), ends.end(), n) == ends.end() &&
+            (edge_end < 0 || paths.distance[n] < paths.distance[edge_end]))
           edge_end = n;
       if (edge_end >= 0)
         tip.anchor = graph.nodes[edge_end].point.X;

@@ -31,14 +31,14 @@ double reach(const SampleGrid &grid, const Eigen::Vector2d &p, const Eigen::Vect
   return t - 0.25;
 }
 
-/// Distance to the side of the band in the direction of @p normal. Where another crack leaves along the normal, the ways
-/// at 45 degrees to it give the width.
+/// Distance to the side of the band in the direction of @p normal. Where another crack leaves along the normal, the
+/// ways at 45 degrees to it give the width.
 double side(const SampleGrid &grid, const Eigen::Vector2d &p, const Eigen::Vector2d &normal)
 {
   const Eigen::Vector2d tangent(-normal[1], normal[0]);
   const double          c = std::sqrt(0.5);
-  return std::min({reach(grid, p, normal), c * reach(grid, p, c * (normal + tangent)),
-                   c * reach(grid, p, c * (normal - tangent))});
+  return std::min(
+      {reach(grid, p, normal), c * reach(grid, p, c * (normal + tangent)), c * reach(grid, p, c * (normal - tangent))});
 }
 
 RawCracks::CentrePoint centre(const SampleGrid &grid, const LatticeField &field, const Eigen::Vector2d &at,
@@ -131,8 +131,7 @@ private:
 
   bool remove_shortest_side_arm()
   {
-    const int a =
-        shortest([&](const auto &arm, double length) { return is_side_arm(arm) && length < limit(arm); });
+    const int a = shortest([&](const auto &arm, double length) { return is_side_arm(arm) && length < limit(arm); });
     return a >= 0 && remove(a);
   }
 

@@ -40,14 +40,6 @@ Rules make_rules()
   return rules;
 }
 
-unsigned neighbour_mask(const SampleGrid &grid, Sample s)
-{
-  unsigned mask = 0;
-  for (int k = 0; k < 8; ++k)
-    mask |= unsigned(grid.depth({s.i + sample_neighbours[k].i, s.j + sample_neighbours[k].j}) != 0) << k;
-  return mask;
-}
-
 } // namespace
 
 std::vector<Sample> thin(SampleGrid grid)
@@ -65,14 +57,14 @@ std::vector<Sample> thin(SampleGrid grid)
       }
   };
   for (const auto &s : grid.samples())
-    if (neighbour_mask(grid, s) != 255u)
+    if (grid.neighbour_mask(s) != 255u)
       enqueue(s);
 
   for (int pass = 0, idle = 0; idle < 2; pass = 1 - pass)
     {
       removed.clear();
       for (const auto &s : border)
-        if (rules.parallel[pass][neighbour_mask(grid, s)])
+        if (rules.parallel[pass][grid.neighbour_mask(s)])
           removed.push_back(s);
       for (const auto &s : removed)
         grid.erase(s);
@@ -92,7 +84,7 @@ std::vector<Sample> thin(SampleGrid grid)
     {
       changed = false;
       for (const auto &s : border)
-        if (grid.depth(s) != 0 && rules.simple[neighbour_mask(grid, s)])
+        if (grid.depth(s) != 0 && rules.simple[grid.neighbour_mask(s)])
           {
             grid.erase(s);
             changed = true;

@@ -79,6 +79,13 @@ TEST_CASE("execute: an error of all ranks is told once, by rank 0", "[environmen
   CHECK(err == (rank() == 0 ? "error: seen from rank 0\n" : ""));
 }
 
+TEST_CASE("execute: a run that stopped early is not called an error", "[environment]")
+{
+  const auto [status, out, err] = outcome([](const Environment &) { throw StoppedEarly("at step 3"); });
+  CHECK(status == ExitStatus::stopped_early);
+  CHECK(err == (rank() == 0 ? "stopped: at step 3\n" : ""));
+}
+
 TEST_CASE("execute: an error of the last rank alone gives all ranks its status if nobody waits for it", "[environment]")
 {
   const auto [status, out, err] = outcome([](const Environment &env) {

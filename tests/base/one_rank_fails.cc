@@ -76,7 +76,7 @@ void wait_for_stop(const Environment &env)
   for (int i = 0; i < 2000; ++i)
     {
       if (const auto reason = stop_requested(env))
-        throw StoppedEarly("stopped by " + *reason);
+        throw StoppedEarly("end of step, " + *reason);
       if (i == 0 && env.rank() == 0)
         std::cout << "running" << std::endl;
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -108,7 +108,7 @@ TEST_CASE("execute: failures and signals of a job of three ranks", "[environment
     const auto job = start("waiting");
     INFO(job.text);
     CHECK(job.status == 2);
-    CHECK(count(job.text, "error: bad value (on rank 1 alone") == 1);
+    CHECK(count(job.text, "error: bad value (on rank 1;") == 1);
   }
 
   SECTION("ranks that fail together end in order, with one message")
@@ -125,6 +125,6 @@ TEST_CASE("execute: failures and signals of a job of three ranks", "[environment
     const auto job = start("signal", SIGUSR1);
     INFO(job.text);
     CHECK(job.status == 4);
-    CHECK(count(job.text, "error: stopped by signal SIGUSR1") == 1);
+    CHECK(count(job.text, "stopped: end of step, signal SIGUSR1") == 1);
   }
 }

@@ -14,10 +14,10 @@ using test::Vector;
 namespace
 {
 
-constexpr double       l0 = 0.025, c_R = 2., sample = l0 / 8.;
-constexpr int          n_elements = 160;
-const CrackOptions     options{l0, c_R, l0 / 2.};
-const Surface<2, 2>   &unit_plate()
+constexpr double     l0 = 0.025, c_R = 2., sample = l0 / 8.;
+constexpr int        n_elements = 160;
+const CrackOptions   options{l0, c_R, l0 / 2.};
+const Surface<2, 2> &unit_plate()
 {
   static const auto plate = shapes::plate<2, 2>({1., 1.}, {n_elements, n_elements});
   return plate;
@@ -184,9 +184,10 @@ TEST_CASE("CrackTracker: a spot without a line of its own is a short crack", "[o
 
 TEST_CASE("CrackTracker: mirrored cracks have mirrored tips and the same length", "[output][crack]")
 {
-  const auto   forked = [](double sign) {
+  const auto forked = [](double sign) {
     const Vector fork(0.45, 0.5 + sign * 0.031);
-    return Cracks{l0, {{{-0.2, fork[1]}, fork}, {fork, {0.8, fork[1] + sign * 0.2}}, {fork, {0.7, fork[1] - sign * 0.11}}}};
+    return Cracks{l0,
+                  {{{-0.2, fork[1]}, fork}, {fork, {0.8, fork[1] + sign * 0.2}}, {fork, {0.7, fork[1] - sign * 0.11}}}};
   };
 
   const auto up = tracker_of(forked(1.)), down = tracker_of(forked(-1.));
@@ -206,8 +207,7 @@ TEST_CASE("CrackTracker: a growing crack keeps its tip and has its speed", "[out
     const Vector along = polar(1., 20.), normal = polar(1., 110.);
     if (curvature == 0.)
       return Vector(0.02, 0.3) + s * along;
-    return Vector(0.02, 0.3) +
-           (std::sin(curvature * s) * along + (1. - std::cos(curvature * s)) * normal) / curvature;
+    return Vector(0.02, 0.3) + (std::sin(curvature * s) * along + (1. - std::cos(curvature * s)) * normal) / curvature;
   };
   CrackTracker tracker(unit_plate(), options);
 

@@ -41,7 +41,7 @@ struct Cracks
     double low = 0., high = 10.;
     for (int k = 0; k < 60; ++k)
       {
-        const double s                                             = 0.5 * (low + high);
+        const double s                                          = 0.5 * (low + high);
         (1. - (1. + s) * std::exp(-s) < threshold ? low : high) = s;
       }
     return low * length_scale;

@@ -147,7 +147,7 @@ TEMPLATE_TEST_CASE_SIG("refine(): random structured refinement keeps all propert
   std::mt19937 generator(seed);
   auto         basis = uneven_basis<degree>();
 
-  for (int level = 0; level < 3; ++level)
+  for (int level = 0; level < 4; ++level)
     {
       const auto       old    = basis;
       const auto       marked = test::random_functions(basis, 0.06, generator);

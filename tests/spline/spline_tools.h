@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <random>
+#include <limits>
+#include <random>
+#include <tuple>
 #include <vector>
 
 #include <sherd/spline/evaluation.h>

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <sherd/adapt/marking.h>
+#include <sherd/assembly/step_summary.h>
 #include <sherd/fracture/pre_crack.h>
 #include <sherd/solve/monolithic_solver.h>
 #include <sherd/state/transfer.h>
@@ -11,23 +12,6 @@
 
 namespace sherd
 {
-
-/// What it took to get one accepted step.
-struct StepSummary
-{
-  double                   dt       = 0.; ///< of the accepted step [time]
-  int                      newton   = 0;  ///< iterations of the accepted attempt
-  int                      linear   = 0;  ///< linear iterations of all attempts
-  int                      attempts = 0;
-  int                      rejected = 0; ///< attempts that failed
-  int                      repeated = 0; ///< attempts discarded because the mesh was too coarse for them
-  int                      switched = 0; ///< branch switches
-  int                      refined  = 0; ///< refinements of the mesh
-  double                   external_work = 0.; ///< over the step [energy]
-  double                   largest_phase = 0.;
-  Energies                 energies; ///< at the end of the step, before a refinement
-  std::vector<std::string> messages; ///< rejections and escalations, one line each
-};
 
 /// Refines the mesh where cracks are or go, and drives single steps: solve, check, refine, repeat.
 template <class Model>

@@ -69,21 +69,27 @@ Assembler<Model>::Assembler(const Model                        &model,
   const auto &d = space.distribution();
   collectively(distribution_->comm(), [&] {
     std::exception_ptr error;
-#pragma omp parallel for schedule(static)
-    for (std::size_t e = 0; e < elements_.size(); ++e)
-      try
-        {
-          elements_[e] = element_data(model, space.surface(), d.elements[e]);
-          if (elements_[e].geometry.extraction.rows() > internal::max_element_points)
-            throw InvalidParameter("assembler: " + std::to_string(elements_[e].geometry.extraction.rows()) +
-                                   " functions on one element, at most " +
-                                   std::to_string(internal::max_element_points) + " are foreseen; refine more evenly");
-        }
-      catch (...)
-        {
+#pragma omp parallel
+    {
+      // A toughness given as a formula is not for several threads; copies of it are independent.
+      const Model own = model;
+#pragma omp for schedule(static)
+      for (std::size_t e = 0; e < elements_.size(); ++e)
+        try
+          {
+            elements_[e] = element_data(own, space.surface(), d.elements[e]);
+            if (elements_[e].geometry.extraction.rows() > internal::max_element_points)
+              throw InvalidParameter("assembler: " + std::to_string(elements_[e].geometry.extraction.rows()) +
+                                     " functions on one element, at most " +
+                                     std::to_string(internal::max_element_points) +
+                                     " are foreseen; refine more evenly");
+          }
+        catch (...)
+          {
 #pragma omp critical
-          error = std::current_exception();
-        }
+            error = std::current_exception();
+          }
+    }
     if (error)
       std::rethrow_exception(error);
   });

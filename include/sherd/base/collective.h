@@ -54,31 +54,26 @@ template <class Task>
 auto collectively(MPI_Comm comm, Task &&task)
 {
   using Result = decltype(task());
-  std::exception_ptr error;
+
+  const auto attempt = [comm](const auto &action) {
+    std::exception_ptr error;
+    try
+      {
+        action();
+      }
+    catch (...)
+      {
+        error = std::current_exception();
+      }
+    rethrow(agree(comm, describe(error)));
+  };
+
   if constexpr (std::is_void_v<Result>)
-    {
-      try
-        {
-          task();
-        }
-      catch (...)
-        {
-          error = std::current_exception();
-        }
-      rethrow(agree(comm, describe(error)));
-    }
+    attempt(task);
   else
     {
       std::optional<Result> result;
-      try
-        {
-          result.emplace(task());
-        }
-      catch (...)
-        {
-          error = std::current_exception();
-        }
-      rethrow(agree(comm, describe(error)));
+      attempt([&] { result.emplace(task()); });
       return std::move(*result);
     }
 }

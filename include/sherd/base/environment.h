@@ -67,11 +67,12 @@ enum class ExitStatus
 /// SIGTERM, SIGINT and SIGUSR1 become requests to stop while @p program runs (base/stop_request.h).
 ///
 /// Errors. Every rank, whether @p program returned or threw, reports to the others on a communicator of its own. If
-/// all of them arrive, the message of the lowest rank that failed is printed once, by rank 0, as "error: ...", and its
-/// status is everybody's. A rank that failed waits three seconds for the others: if one of them does not come, it is
-/// in a collective call that the failed rank will never join, and the failed rank prints its message and ends
-/// the job by MPI_Abort with its status, so that nothing hangs. What can fail on a single rank should therefore go
-/// through collectively() or on_root() (base/collective.h), which make all ranks throw the same error.
+/// all of them arrive, the message of the lowest rank that failed is printed once, by rank 0, as "error: ..." (or
+/// "stopped: ..." for StoppedEarly), and its status is everybody's. A rank that failed waits three seconds for the
+/// others. If one of them does not come, it is most likely in a collective call that the failed rank will never join;
+/// the failed rank then prints its message and ends the job by MPI_Abort with its status, so that nothing hangs. What
+/// can fail on a single rank should therefore go through collectively() or on_root() (base/collective.h), which make
+/// all ranks throw the same error.
 int run(int argc, char **argv, const std::function<void(const Environment &)> &program,
         const std::function<std::string()> &parameter_reference = {});
 

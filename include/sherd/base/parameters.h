@@ -20,7 +20,7 @@ namespace sherd
 /// @param source  name of the file for messages.
 /// @throws InvalidParameter  for an unknown or repeated key (naming the nearest known one), a value of the wrong type,
 ///   out of range or NaN, a value that is missing (see ParameterSection::value), always with line and column:
-///   "material.poissons_ratio = 0.5 [-], expected a value in (-1, 0.5) (case.yaml:12:20); try 0.3, the default".
+///   "material.poissons_ratio = 0.5 [-], expected a value in (-1, 0.5) (case.yaml:12:20); try 0.3".
 /// @throws FileError  if @p text is not one YAML document.
 void read_parameters(ParameterSection &section, const std::string &text, const std::string &source,
                      const std::vector<std::pair<std::string, std::string>> &overrides = {});

@@ -13,8 +13,9 @@ namespace sherd
 /// earlier handlers come back on destruction. A second signal of the same kind acts as it would without this object.
 /// One at a time; run() holds it.
 ///
-/// SIGUSR1 is there because mpirun and batch systems pass it on and leave the run as much time as it needs, whereas
-/// Open MPI's mpirun kills all ranks one second after a SIGTERM (longer with `--mca odls_base_sigkill_timeout 600`).
+/// Under mpirun, send SIGUSR1 to mpirun: it passes it on at once and returns the status of the ranks. Open MPI's mpirun
+/// answers a SIGTERM or SIGINT of its own differently: the ranks get SIGTERM a second later, are killed after another
+/// second (both waits: `--mca odls_base_sigkill_timeout SECONDS`), and mpirun returns 1 whatever they return.
 class StopSignals
 {
 public:

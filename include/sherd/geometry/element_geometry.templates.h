@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sherd/base/print.h>
 #include <sherd/geometry/element_geometry.h>
 
 namespace sherd
@@ -53,7 +54,7 @@ ElementGeometry<degree, spacedim> element_geometry(const Surface<degree, spacedi
       const double det       = A[0] * A[1] - A[2] * A[2];
       if (!(det > 0.))
         throw InvalidParameter("surface: element " + std::to_string(element) +
-                               " is degenerate, the determinant of its metric is " + std::to_string(det) +
+                               " is degenerate, the determinant of its metric is " + print(det) +
                                "; expected a regular parametrisation (check control points and weights)");
       point.contravariant    = Voigt(A[1], A[0], -A[2]) / det;
       point.dA               = std::sqrt(det) * weights[q];

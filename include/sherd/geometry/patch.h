@@ -43,9 +43,14 @@ void validate(const Patch<degree, spacedim> &patch)
 }
 
 /// Turns a transfer of homogeneous coefficients w c into one of values c: row i of the result is T_ij w_j / w'_i with
-/// w' = T w. Also replaces @p weights by w'.
+/// w' = T w. Also replaces @p weights by w'. Equal weights stay the same number, so that a polynomial patch stays one.
 inline SparseTransfer rational_transfer(SparseTransfer homogeneous, Eigen::VectorXd &weights)
 {
+  if ((weights.array() == weights[0]).all())
+    {
+      weights = Eigen::VectorXd::Constant(homogeneous.n_rows(), weights[0]);
+      return homogeneous;
+    }
   const Eigen::VectorXd old     = weights;
   Eigen::VectorXd       refined = Eigen::VectorXd::Zero(homogeneous.n_rows());
   for (int i = 0; i < homogeneous.n_rows(); ++i)

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
+#include <sherd/base/print.h>
 #include <sherd/geometry/surface.h>
 
 /// Surfaces by name. Each is one function that returns a Surface with named edges.
@@ -23,15 +25,15 @@ std::vector<double> uniform_knots(int n)
 /// [0, elements[0]] x [0, elements[1]]; edges "left", "right" (x = 0, size_x), "bottom", "top" (y = 0, size_y).
 ///
 /// Control points at the Greville abscissae, so that X is linear in the parameters. Source: theory I.
-/// @throws InvalidParameter   a size that is not positive, less than one element
+/// @throws InvalidParameter   a size that is not positive and finite, less than one element
 template <int degree, int spacedim>
 Surface<degree, spacedim> plate(const std::array<double, 2> &size, const std::array<int, 2> &elements)
 {
   for (int d = 0; d < 2; ++d)
     {
-      if (!(size[d] > 0.))
-        throw InvalidParameter("plate: size[" + std::to_string(d) + "] = " + std::to_string(size[d]) +
-                               ", expected a length > 0");
+      if (!(std::isfinite(size[d]) && size[d] > 0.))
+        throw InvalidParameter("plate: size[" + std::to_string(d) + "] = " + print(size[d]) +
+                               ", expected a finite length > 0");
       if (elements[d] < 1)
         throw InvalidParameter("plate: elements[" + std::to_string(d) + "] = " + std::to_string(elements[d]) +
                                ", expected at least 1");

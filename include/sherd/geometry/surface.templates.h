@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include <sherd/geometry/surface.h>
@@ -79,6 +80,9 @@ SurfaceRefinement Surface<degree, spacedim>::refine(const std::vector<int> &poin
   std::vector<std::vector<int>> marked(patches_.size());
   for (const int point : points)
     {
+      if (point < 0 || point >= n_control_points())
+        throw InvalidParameter("surface: control point " + std::to_string(point) +
+                               " was marked for refinement, expected 0 to " + std::to_string(n_control_points() - 1));
       const auto [p, local] = locate_point(point);
       marked[p].push_back(local);
     }

@@ -35,7 +35,7 @@ template <int n, int degree, int spacedim, class Derived>
 BezierElement<degree, n> bezier_element(const Patch<degree, spacedim> &patch, int e,
                                         const Eigen::MatrixBase<Derived> &control_values)
 {
-  using Element = BezierElement<degree, n>;
+  using Element                       = BezierElement<degree, n>;
   const auto                C         = extraction(patch.basis, e);
   const auto                functions = patch.basis.functions_of(e);
   typename Element::Weights W         = Element::Weights::Zero();

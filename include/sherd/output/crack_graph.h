@@ -16,8 +16,8 @@ namespace sherd
 /// (i, j) is its own lattice point.
 struct LatticeField
 {
-  std::function<Eigen::Vector3d(const Eigen::Vector2d &)> position;  ///< X on the reference surface (z = 0 in the plane)
-  std::function<double(const Eigen::Vector2d &)>          phase;     ///< phi; 1 or more outside the patch
+  std::function<Eigen::Vector3d(const Eigen::Vector2d &)> position; ///< X on the reference surface (z = 0 in the plane)
+  std::function<double(const Eigen::Vector2d &)>          phase;    ///< phi; 1 or more outside the patch
   double                                                  threshold; ///< broken where phi is below
 };
 
@@ -42,7 +42,7 @@ struct CrackGraph
 
   struct Arm
   {
-    std::array<int, 2>           nodes; ///< {-1, -1}: a closed loop without nodes
+    std::array<int, 2>           nodes;  ///< {-1, -1}: a closed loop without nodes
     std::vector<Eigen::Vector3d> points; ///< from node to node, both included; a loop repeats its first point
     double                       length; ///< arc length of points
   };
@@ -61,8 +61,8 @@ struct CrackGraph
 /// come and go with the rounding of a length.
 struct Pruning
 {
-  double                           limit;        ///< shorter side arms and loops are removed, shorter bridges contracted
-  double                           known_limit;  ///< for side arms of a known branch point
+  double                           limit;       ///< shorter side arms and loops are removed, shorter bridges contracted
+  double                           known_limit; ///< for side arms of a known branch point
   double                           known_radius; ///< how far from its old place a known branch point may be
   std::span<const Eigen::Vector3d> known_branch_points;
 };

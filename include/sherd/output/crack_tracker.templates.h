@@ -14,9 +14,9 @@ namespace internal
 template <int degree, int spacedim>
 Eigen::Vector3d position(const Patch<degree, spacedim> &patch, double u, double v)
 {
-  const auto element = bezier_element<spacedim>(patch, patch.basis.element_at(u, v), patch.control_points);
-  Eigen::Vector3d X  = Eigen::Vector3d::Zero();
-  X.head<spacedim>() = element(u, v);
+  const auto      element = bezier_element<spacedim>(patch, patch.basis.element_at(u, v), patch.control_points);
+  Eigen::Vector3d X       = Eigen::Vector3d::Zero();
+  X.head<spacedim>()      = element(u, v);
   return X;
 }
 
@@ -35,8 +35,8 @@ std::array<double, 2> largest_tangents(const Patch<degree, spacedim> &patch)
         for (int l = 0; l <= n; ++l)
           {
             std::array<double, 2> at;
-            at[d]     = l == n ? domain.max[d] : domain.min[d] + size[d] * l / n;
-            at[1 - d] = k == n ? domain.max[1 - d] : domain.min[1 - d] + size[1 - d] * k / n;
+            at[d]        = l == n ? domain.max[d] : domain.min[d] + size[d] * l / n;
+            at[1 - d]    = k == n ? domain.max[1 - d] : domain.min[1 - d] + size[1 - d] * k / n;
             const auto X = position(patch, at[0], at[1]);
             if (l > 0)
               result[d] = std::max(result[d], (X - before).norm() / (size[d] / n));
@@ -125,12 +125,12 @@ SampleGrid sample_broken_set(const Patch<degree, spacedim> &patch, const Eigen::
           tables[d].resize(degree + 1, n[d]);
           for (int k = 0; k < n[d]; ++k)
             {
-              const double at = lattice.origin[d] + (first[d] + k + 0.5) * lattice.spacing[d];
-              const auto   B  = bernstein_1d<degree>((at - element.box.min[d]) / size[d]).value;
+              const double at  = lattice.origin[d] + (first[d] + k + 0.5) * lattice.spacing[d];
+              const auto   B   = bernstein_1d<degree>((at - element.box.min[d]) / size[d]).value;
               tables[d].col(k) = Eigen::Map<const Eigen::Matrix<double, degree + 1, 1>>(B.data());
             }
         }
-      using Net                       = Eigen::Matrix<double, degree + 1, degree + 1>;
+      using Net                         = Eigen::Matrix<double, degree + 1, degree + 1>;
       const typename Element::Weights H = element.weights.cwiseProduct(element.values);
       const Eigen::Map<const Net>     numerator(H.data()), denominator(element.weights.data());
       for (int l = 0; l < n[1]; ++l)
@@ -179,27 +179,27 @@ void CrackTracker::update(const Surface<degree, spacedim> &surface, const Eigen:
   cracks_ = {};
   for (int p = 0; p < surface.n_patches(); ++p)
     {
-      const auto &patch      = surface.patch(p);
-      const auto &lattice    = lattices_[p];
-      const auto  values     = phase.segment(surface.point_offset(p), patch.basis.n_functions());
-      const auto &domain     = patch.basis.domain();
-      const auto  in_domain  = [&](const std::array<double, 2> &at) {
+      const auto &patch     = surface.patch(p);
+      const auto &lattice   = lattices_[p];
+      const auto  values    = phase.segment(surface.point_offset(p), patch.basis.n_functions());
+      const auto &domain    = patch.basis.domain();
+      const auto  in_domain = [&](const std::array<double, 2> &at) {
         return at[0] >= domain.min[0] && at[0] <= domain.max[0] && at[1] >= domain.min[1] && at[1] <= domain.max[1];
       };
-      const LatticeField field{
-          [&](const Eigen::Vector2d &q) {
-            const auto at = lattice.parameters(q);
-            return internal::position(patch, std::clamp(at[0], domain.min[0], domain.max[0]),
-                                      std::clamp(at[1], domain.min[1], domain.max[1]));
-          },
-          [&](const Eigen::Vector2d &q) {
-            const auto at = lattice.parameters(q);
-            if (!in_domain(at))
-              return std::numeric_limits<double>::infinity();
-            return bezier_element<1>(patch, patch.basis.element_at(at[0], at[1]), values)(at[0], at[1])[0];
-          },
-          options_.threshold};
-      const auto grid = sample_broken_set(patch, values, lattice, options_.threshold);
+      const LatticeField field{[&](const Eigen::Vector2d &q) {
+                                 const auto at = lattice.parameters(q);
+                                 return internal::position(patch, std::clamp(at[0], domain.min[0], domain.max[0]),
+                                                           std::clamp(at[1], domain.min[1], domain.max[1]));
+                               },
+                               [&](const Eigen::Vector2d &q) {
+                                 const auto at = lattice.parameters(q);
+                                 if (!in_domain(at))
+                                   return std::numeric_limits<double>::infinity();
+                                 return bezier_element<1>(patch, patch.basis.element_at(at[0], at[1]),
+                                                          values)(at[0], at[1])[0];
+                               },
+                               options_.threshold};
+      const auto         grid = sample_broken_set(patch, values, lattice, options_.threshold);
       if (!grid.samples().empty())
         cracks_.append(crack_graph(grid, field, pruning));
     }

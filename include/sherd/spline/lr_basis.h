@@ -36,6 +36,8 @@ struct LRFunction
 template <int degree>
 class LRBasis
 {
+  static_assert(2 <= degree && degree <= 4, "degrees 2, 3 and 4 are built");
+
 public:
   /// Tensor-product basis of two open knot vectors; function j n_u + i has index i along u, element likewise.
   /// @param knots_u, knots_v  ascending; first and last value degree + 1 times, others at most degree times

@@ -43,7 +43,7 @@ struct Box
   bool operator==(const Box &) const = default;
 };
 
-/// True if the open interior of @p inner, taken as a union of whole elements, lies in @p outer: compares exactly.
+/// True if @p inner lies in @p outer; compares exactly.
 inline bool contains(const Box &outer, const Box &inner)
 {
   return outer.min[0] <= inner.min[0] && inner.max[0] <= outer.max[0] && outer.min[1] <= inner.min[1] &&

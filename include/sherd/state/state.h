@@ -86,7 +86,7 @@ struct GlobalState
 template <int degree, int spacedim>
 GlobalState<degree, spacedim> gather(const State<degree, spacedim> &state, const ShellSpace<degree, spacedim> &space);
 
-/// Gives every rank its part, the inverse of gather. Local.
+/// Gives every rank its part, the inverse of gather. Collective, because the state makes its own distribution.
 template <int degree, int spacedim>
 State<degree, spacedim> distribute(const GlobalState<degree, spacedim> &global,
                                    const ShellSpace<degree, spacedim>  &space);

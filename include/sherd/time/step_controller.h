@@ -1,10 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include <sherd/base/exceptions.h>
 #include <sherd/base/parameter_section.h>
+#include <sherd/base/print.h>
 
 namespace sherd
 {
@@ -41,11 +44,19 @@ struct StepControlSettings
 class StepController
 {
 public:
-  /// @throws InvalidParameter   unless the first step is positive
+  /// @throws InvalidParameter   a step or factor that is not positive; a rejected step that would not become smaller
   explicit StepController(const StepControlSettings &settings) : settings_(settings), dt_(settings.initial)
   {
-    if (!(settings.initial > 0.))
-      throw InvalidParameter("time.initial_step = " + std::to_string(settings.initial) + ", expected a time > 0");
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    require("initial", settings.initial, infinity);
+    require("few", settings.few, infinity);
+    require("normal", settings.normal, infinity);
+    require("many", settings.many, infinity);
+    require("refined", settings.refined, infinity);
+    require("rejected", settings.rejected, 1.);
+    require("rejected_again", settings.rejected_again, 1.);
+    require("courant", settings.courant, infinity);
+    require("smallest", settings.smallest, 1.);
   }
 
   /// The bound follows the mesh. @param shortest_edge dx_min [length]  @param rayleigh_speed c_R [length/time]
@@ -58,7 +69,8 @@ public:
   double step() const { return dt_; }
   double largest() const { return largest_; }
 
-  /// Step to take so that @p remaining is not overshot: the last step ends exactly, and none is left that is tiny.
+  /// Step to take so that @p remaining is not overshot: the last step is @p remaining itself, and none is left that is
+  /// tiny.
   double step_within(double remaining) const
   {
     if (dt_ >= remaining * (1. - 1e-10))
@@ -73,25 +85,39 @@ public:
     scale(newton < 4 ? settings_.few : newton == 4 ? settings_.normal : settings_.many);
   }
 
-  /// After a refinement of the mesh.
-  void refine() { scale(settings_.refined); }
-
-  /// After a rejected step. @throws NoConvergence   when the step falls below dt_min; @p why is part of the message
-  void reject(const std::string &why)
+  /// Instead of accept() when the mesh was refined after the step; also before the step is repeated on a finer mesh.
+  void refine()
   {
+    retries_ = 0;
+    scale(settings_.refined);
+  }
+
+  /// After a rejected step of size @p attempted, the present one if left out.
+  /// @throws NoConvergence   when the step falls below dt_min; @p why is part of the message
+  void reject(const std::string &why, double attempted = std::numeric_limits<double>::infinity())
+  {
+    dt_ = std::min(dt_, attempted);
     scale(retries_++ == 0 ? settings_.rejected : settings_.rejected_again);
-    if (dt_ < settings_.smallest * largest_)
-      throw NoConvergence("the step size fell to " + std::to_string(dt_ / largest_) + " of its bound after " +
-                          std::to_string(retries_) + " rejections: " + why +
+    const double reference = std::isfinite(largest_) ? largest_ : settings_.initial;
+    if (dt_ < settings_.smallest * reference)
+      throw NoConvergence("the step size fell to " + print(dt_) + ", " + print(dt_ / reference) +
+                          " of its bound, after " + std::to_string(retries_) + " rejections: " + why +
                           "; try a finer mesh at the crack, a smaller load step or degradation::Quadratic");
   }
 
 private:
+  static void require(const std::string &name, double value, double below)
+  {
+    if (!(value > 0. && value < below))
+      throw InvalidParameter("step control: " + name + " = " + print(value) + ", expected a finite value > 0" +
+                             (std::isfinite(below) ? " and < " + print(below) : ""));
+  }
+
   void scale(double factor) { dt_ = std::min(dt_ * factor, largest_); }
 
   StepControlSettings settings_;
   double              dt_;
-  double              largest_ = 1e300;
+  double              largest_ = std::numeric_limits<double>::infinity(); ///< until bound() is called
   int                 retries_ = 0;
 };
 

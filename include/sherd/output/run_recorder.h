@@ -1,0 +1,144 @@
+#pragma once
+
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <sherd/assembly/energy_balance.h>
+#include <sherd/base/all_gather.h>
+#include <sherd/base/collective.h>
+#include <sherd/base/output_directory.h>
+#include <sherd/base/progress.h>
+#include <sherd/output/crack_tracker.h>
+#include <sherd/output/fields_file.h>
+#include <sherd/output/frames.h>
+#include <sherd/output/history.h>
+#include <sherd/output/json.h>
+#include <sherd/output/probes.h>
+#include <sherd/output/tips_table.h>
+#include <sherd/space/shell_space.h>
+#include <sherd/state/state.h>
+
+namespace sherd
+{
+
+/// What a RunRecorder needs to know of a run.
+template <int spacedim>
+struct RecorderSettings
+{
+  CrackOptions                      crack;
+  double                            end_time;
+  int                               frames = 40; ///< evenly spaced in time, beside the first
+  std::vector<PointProbe<spacedim>> points;      ///< for probes.csv
+  std::vector<std::string>          edges;       ///< for probes.csv: reactions
+};
+
+/// Writes what a program leaves behind: history.csv, tips.csv, probes.csv, frames, fields.h5, summary.json, and the
+/// progress line on the terminal (doc/output.md). Files are written by rank 0; all members are collective.
+///
+/// @tparam Solver arguments need assembler(), timers(), energies() and reaction() as MonolithicSolver has them.
+template <int degree, int spacedim>
+class RunRecorder
+{
+public:
+  using SpaceType = ShellSpace<degree, spacedim>;
+  using StateType = State<degree, spacedim>;
+
+  /// @param directory   prepared
+  /// @param initial     energies of the initial state
+  /// @throws FileError, InvalidParameter   on all ranks
+  RunRecorder(const Environment &env, const OutputDirectory &directory, const Surface<degree, spacedim> &surface,
+              const Energies &initial, const RecorderSettings<spacedim> &settings)
+      : env_(env), settings_(settings), balance_(initial), energies_(initial)
+  {
+    on_root(env.comm(), [&] { files_ = std::make_unique<Files>(directory.path(), surface, settings); });
+  }
+
+  /// Row and frame of the initial state.
+  template <class Solver>
+  void start(Solver &solver, const SpaceType &space, const StateType &state)
+  {
+    write_rows(solver, space, state, {});
+    write_frame(solver, space, state);
+  }
+
+  /// An accepted step.
+  template <class Solver>
+  void record(Solver &solver, const SpaceType &space, const StateType &state, const StepSummary &step)
+  {
+    balance_.add(step);
+    energies_ = step.energies;
+    totals_.add(step);
+    write_rows(solver, space, state, step);
+    const double next_frame = settings_.end_time / settings_.frames * n_frames_;
+    if (state.time >= next_frame * (1. - 1e-9))
+      write_frame(solver, space, state);
+  }
+
+  /// Writes summary.json. @param ending   how the run ended, for example "done"
+  template <class Solver>
+  void finish(Solver &solver, const std::string &ending);
+
+private:
+  struct Files
+  {
+    Files(const std::filesystem::path &path, const Surface<degree, spacedim> &surface,
+          const RecorderSettings<spacedim> &settings)
+        : directory(path),
+          history(path),
+          tips(path),
+          probes(path, surface, settings.points, settings.edges),
+          frames(path),
+          fields(path, degree, spacedim),
+          tracker(surface, settings.crack),
+          progress(0., settings.end_time, std::cout)
+    {
+    }
+
+    std::filesystem::path directory;
+    History               history;
+    TipsTable             tips;
+    Probes<spacedim>      probes;
+    FrameWriter           frames;
+    FieldsFile            fields;
+    CrackTracker          tracker;
+    ProgressLine          progress;
+  };
+
+  struct Totals
+  {
+    int steps = 0, attempts = 0, rejected = 0, repeated = 0, switched = 0, refined = 0, newton = 0, linear = 0;
+
+    void add(const StepSummary &step)
+    {
+      ++steps;
+      attempts += step.attempts;
+      rejected += step.rejected;
+      repeated += step.repeated;
+      switched += step.switched;
+      refined += step.refined;
+      newton += step.newton;
+      linear += step.linear;
+    }
+  };
+
+  template <class Solver>
+  void write_rows(Solver &solver, const SpaceType &space, const StateType &state, const StepSummary &step);
+  template <class Solver>
+  void write_frame(Solver &solver, const SpaceType &space, const StateType &state);
+
+  Environment                env_;
+  RecorderSettings<spacedim> settings_;
+  EnergyBalance              balance_;
+  Energies                   energies_;
+  Totals                     totals_;
+  HistoryRow                 last_{};
+  double                     largest_elastic_ = 0., largest_elastic_time_ = 0., largest_imbalance_ = 0.;
+  int                        n_frames_ = 0;
+  std::unique_ptr<Files>     files_; ///< rank 0 only
+};
+
+} // namespace sherd
+
+#include <sherd/output/run_recorder.templates.h>

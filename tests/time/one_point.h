@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include <mpi.h>
+
+#include <sherd/time/update.h>
+
+namespace sherd::test
+{
+
+/// Steps of one unit mass x'' + 2 damping x' + omega^2 x = cos(forcing t), taken by the formulas of the library on a
+/// vector of one entry.
+struct Oscillator
+{
+  double omega2 = 4., damping = 0., forcing = 0.;
+
+  double force(double x, double v, double t) const
+  {
+    return -omega2 * x - 2. * damping * v + (forcing > 0. ? std::cos(forcing * t) : 0.);
+  }
+
+  /// State (x, v, a) at the end of the steps @p sizes from x0, v0 at t = 0.
+  template <class Integrator>
+  Motion run(const Integrator &integrator, const std::vector<double> &sizes, double x0, double v0) const
+  {
+    const auto d = std::make_shared<const Distribution>(MPI_COMM_SELF, std::vector<std::int64_t>{0},
+                                                        std::vector<std::int64_t>{});
+    Motion     motion{Vector(d, 1), Vector(d, 1), Vector(d, 1)};
+    motion.position.local()[0]     = x0;
+    motion.velocity.local()[0]     = v0;
+    motion.acceleration.local()[0] = force(x0, v0, 0.);
+    double time = 0., previous = sizes.front();
+    for (const double dt : sizes)
+      {
+        motion = step(integrator.stage(dt, previous), motion, time);
+        time += dt;
+        previous = dt;
+      }
+    return motion;
+  }
+
+  /// One step. The balance is linear in x_{n+1}, so that two evaluations of its residual give the solution.
+  Motion step(const Stage &stage, const Motion &old, double time) const
+  {
+    Motion     next     = predict(stage, old);
+    const auto residual = [&](double x) {
+      next.position.local()[0] = x;
+      update_rates(stage, old, next);
+      const auto level = [&](double alpha, const Vector &a, const Vector &b) {
+        return interpolate(alpha, a, b).local()[0];
+      };
+      return level(stage.alpha_m, old.acceleration, next.acceleration) -
+             force(level(stage.alpha_f, old.position, next.position),
+                   level(stage.alpha_f, old.velocity, next.velocity), time + stage.alpha_f * stage.dt);
+    };
+    const double start = next.position.local()[0];
+    const double r0    = residual(start);
+    const double slope = residual(start + 1.) - r0;
+    residual(start - r0 / slope);
+    return next;
+  }
+};
+
+} // namespace sherd::test
