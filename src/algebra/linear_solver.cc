@@ -230,6 +230,11 @@ std::string LinearSolver::Impl::attempt(std::size_t stage, const Matrix &matrix,
       factors.reset();
       return error.what();
     }
+  catch (...)
+    {
+      factors.reset(); // half made
+      throw;
+    }
 
   const Stopwatch stopwatch(report.solve_seconds);
   const int       limit = settings.escalation == Escalation::never ? settings.max_iterations : settings.iteration_limit;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include <sherd/base/exceptions.h>
 
@@ -94,6 +95,45 @@ private:
   std::vector<std::pair<int, double>> row_;
 };
 
+std::vector<int> touched_elements(const ElementTree &tree, const std::vector<MeshLine> &lines)
+{
+  std::vector<int> touched;
+  for (const auto &line : lines)
+    tree.append_touching(line, touched);
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  return touched;
+}
+
+/// Splits all functions on the given elements that are crossed; returns the entry of each function, -1 if it has none.
+template <int degree>
+std::vector<int> split_crossed_functions(const LRBasis<degree> &basis, const std::vector<int> &elements,
+                                         internal::FunctionSplitter<degree> &splitter)
+{
+  std::vector<char> seen(basis.n_functions(), 0);
+  std::vector<int>  crossed, queue, entry_of(basis.n_functions(), -1);
+  for (const int e : elements)
+    for (const int i : basis.functions_of(e))
+      if (!std::exchange(seen[i], 1) && splitter.is_crossed(basis.function(i)))
+        crossed.push_back(i);
+
+  const auto enter = [&](int i) {
+    if (entry_of[i] < 0)
+      entry_of[i] = splitter.add_old(i, basis.function(i));
+    return entry_of[i];
+  };
+  for (const int i : crossed)
+    queue.push_back(enter(i));
+  // Parts of a function may equal old functions inside its support: those share an element with it.
+  for (const int i : crossed)
+    for (const int e : basis.elements_of(i))
+      for (const int other : basis.functions_of(e))
+        if (contains(basis.function(i).support(), basis.function(other).support()))
+          enter(other);
+  splitter.run(std::move(queue));
+  return entry_of;
+}
+
 } // namespace
 
 template <int degree>
@@ -176,33 +216,9 @@ Refinement LRBasis<degree>::insert(std::span<const MeshLine> given)
   mesh_.add(lines);
   mesh_lines_ = mesh_.lines();
 
-  std::vector<int> touched;
-  for (const auto &line : lines)
-    tree_.append_touching(line, touched);
-  std::sort(touched.begin(), touched.end());
-  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-
-  // Parts of a function may equal old functions inside its support: those share an element with it.
+  const auto                         touched = touched_elements(tree_, lines);
   internal::FunctionSplitter<degree> splitter(mesh_);
-  std::vector<char>                  seen(n_functions(), 0);
-  std::vector<int>                   crossed, entry_of(n_functions(), -1), queue;
-  for (const int e : touched)
-    for (const int i : functions_of(e))
-      if (!std::exchange(seen[i], 1) && splitter.is_crossed(functions_[i]))
-        crossed.push_back(i);
-  const auto enter = [&](int i) {
-    if (entry_of[i] < 0)
-      entry_of[i] = splitter.add_old(i, functions_[i]);
-    return entry_of[i];
-  };
-  for (const int i : crossed)
-    queue.push_back(enter(i));
-  for (const int i : crossed)
-    for (const int e : elements_of(i))
-      for (const int other : functions_of(e))
-        if (contains(functions_[i].support(), functions_[other].support()))
-          enter(other);
-  splitter.run(std::move(queue));
+  const auto                         entry_of = split_crossed_functions(*this, touched, splitter);
 
   const int        n_old_elements = n_elements();
   std::vector<int> parent         = tree_.split(touched, mesh_);

@@ -13,7 +13,7 @@ namespace
 template <int degree, int spacedim, class Function>
 auto integral(const Surface<degree, spacedim> &surface, const std::string &name, const Function &f)
 {
-  auto sum = 0. * f(Point<spacedim>::Zero().eval());
+  std::decay_t<decltype(f(Point<spacedim>()))> sum = 0. * f(Point<spacedim>(Point<spacedim>::Zero()));
   for (const auto &edge : surface.edge(name))
     for (const auto &piece : edge_geometry(surface, edge))
       for (const auto &q : piece.quadrature)

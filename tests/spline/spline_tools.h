@@ -1,7 +1,8 @@
 #pragma once
 
 #include <algorithm>
-#include <random>
+#include <array>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <tuple>

@@ -20,40 +20,29 @@ namespace
 
 using Pattern = std::vector<double>;
 
-const Pattern constant   = {1.};
-const Pattern alternate  = {1., 1.5, .5};
-const Pattern grow_shrink = {1.5, 1.5, 1.5, 1.5, 1.5, .2};
+/// Sizes of the steps of one cycle. The last one is what paper Eq. (13) does: growth by 1.5, a fifth at a refinement.
+const Pattern constant  = {1.};
+const Pattern alternate = {1., 1.5, .5};
+const Pattern sawtooth  = {1., 1.5, 2.25, 3.375, 5.0625, 1.0125};
 
-/// Steps that add up to @p end: cycles of the factors of @p pattern, each applied to the step before it.
-Pattern steps(const Pattern &pattern, bool factors, int n_cycles, double end)
+/// @p n_cycles of the pattern, scaled to end at t = 2.
+Pattern steps(const Pattern &pattern, int n_cycles)
 {
-  Pattern cycle;
-  double  size = 1.;
-  for (const double p : pattern)
-    {
-      size = factors ? size * p : p;
-      cycle.push_back(size);
-    }
   double sum = 0.;
-  for (const double s : cycle)
+  for (const double s : pattern)
     sum += s;
   Pattern sizes;
   for (int c = 0; c < n_cycles; ++c)
-    for (const double s : cycle)
-      sizes.push_back(s * end / (sum * n_cycles));
+    for (const double s : pattern)
+      sizes.push_back(2. * s / (sum * n_cycles));
   return sizes;
-}
-
-Pattern relative(const Pattern &pattern, int n_cycles)
-{
-  return steps(pattern, pattern.size() == grow_shrink.size(), n_cycles, 2.);
 }
 
 /// Error of position, velocity at t = 2 of a damped, forced oscillator, against a fine classical Runge-Kutta solution.
 template <class Integrator>
 double error(const Integrator &integrator, const Pattern &sizes)
 {
-  const Oscillator oscillator{4., .1, 3.};
+  const Oscillator  oscillator{4., .1, 3.};
   static const auto exact = [&] {
     double       x = 1., v = -.5, t = 0.;
     const int    n = 20000;
@@ -77,14 +66,14 @@ double error(const Integrator &integrator, const Pattern &sizes)
 template <class Integrator>
 double order(const Integrator &integrator, const Pattern &pattern, int n_cycles)
 {
-  return std::log2(error(integrator, relative(pattern, n_cycles)) / error(integrator, relative(pattern, 2 * n_cycles)));
+  return std::log2(error(integrator, steps(pattern, n_cycles)) / error(integrator, steps(pattern, 2 * n_cycles)));
 }
 
 /// Amplification of (x, v dt, a dt^2) of the undamped oscillator in one step: three runs from the unit vectors.
 Eigen::Matrix3d amplification(const Stage &stage, double omega2)
 {
-  const auto      d = std::make_shared<const Distribution>(MPI_COMM_SELF, std::vector<std::int64_t>{0},
-                                                      std::vector<std::int64_t>{});
+  const auto d =
+      std::make_shared<const Distribution>(MPI_COMM_SELF, std::vector<std::int64_t>{0}, std::vector<std::int64_t>{});
   Eigen::Matrix3d A;
   const double    scale[3] = {1., stage.dt, stage.dt * stage.dt};
   for (int k = 0; k < 3; ++k)
@@ -114,10 +103,8 @@ TEST_CASE("Constants of generalized-alpha are those of its table")
     double rho, alpha_m, alpha_f, gamma, beta;
   };
   // theory F: (2 - rho)/(1 + rho), 1/(1 + rho), 1/2 + alpha_m - alpha_f, (1 + alpha_m - alpha_f)^2 / 4
-  const auto row = GENERATE(Row{0., 2., 1., 1.5, 1.},
-                            Row{.5, 1., 2. / 3., 5. / 6., 4. / 9.},
-                            Row{.8, 2. / 3., 5. / 9., 11. / 18., 25. / 81.},
-                            Row{1., .5, .5, .5, .25});
+  const auto row   = GENERATE(Row{0., 2., 1., 1.5, 1.}, Row{.5, 1., 2. / 3., 5. / 6., 4. / 9.},
+                              Row{.8, 2. / 3., 5. / 9., 11. / 18., 25. / 81.}, Row{1., .5, .5, .5, .25});
   const auto check = [&](const Stage &s) {
     CHECK(s.dt == .3);
     CHECK(s.alpha_m == Approx(row.alpha_m).epsilon(1e-14));
@@ -183,9 +170,9 @@ TEST_CASE("Integrators refuse parameters without a stable scheme")
 
 TEST_CASE("The predictor keeps the velocity and obeys the update formulas")
 {
-  const auto d = std::make_shared<const Distribution>(MPI_COMM_SELF, std::vector<std::int64_t>{0, 1},
-                                                      std::vector<std::int64_t>{});
-  Motion     old{Vector(d, 2), Vector(d, 2), Vector(d, 2)};
+  const auto d =
+      std::make_shared<const Distribution>(MPI_COMM_SELF, std::vector<std::int64_t>{0, 1}, std::vector<std::int64_t>{});
+  Motion old{Vector(d, 2), Vector(d, 2), Vector(d, 2)};
   for (int i = 0; i < 4; ++i)
     {
       old.position.local()[i]     = 1. + i;
@@ -208,15 +195,10 @@ TEST_CASE("The predictor keeps the velocity and obeys the update formulas")
 TEST_CASE("Motion under constant acceleration is exact, whatever the steps do")
 {
   const double rho   = GENERATE(0., .5, 1.);
-  const auto   sizes = relative(grow_shrink, 3);
-  // x'' = 1 from rest: omega = 0, cos(0 t) stands for the force.
-  struct Constant
-  {
-    double force(double, double, double) const { return 1.; }
-  };
-  const auto d = std::make_shared<const Distribution>(MPI_COMM_SELF, std::vector<std::int64_t>{0},
-                                                      std::vector<std::int64_t>{});
-  Motion     m{Vector(d, 1), Vector(d, 1), Vector(d, 1)};
+  const auto   sizes = steps(sawtooth, 3);
+  const auto   d =
+      std::make_shared<const Distribution>(MPI_COMM_SELF, std::vector<std::int64_t>{0}, std::vector<std::int64_t>{});
+  Motion m{Vector(d, 1), Vector(d, 1), Vector(d, 1)};
   m.velocity.local()[0]     = -.5;
   m.acceleration.local()[0] = 1.;
   double previous = sizes[0], t = 0.;
@@ -226,10 +208,10 @@ TEST_CASE("Motion under constant acceleration is exact, whatever the steps do")
       Motion     next  = predict(stage, m);
       // a_{n+1} = 1 balances a constant force; x from the update formula.
       next.position.local()[0] =
-        m.position.local()[0] + dt * m.velocity.local()[0] + dt * dt * ((.5 - stage.beta) * 1. + stage.beta * 1.);
+          m.position.local()[0] + dt * m.velocity.local()[0] + dt * dt * ((.5 - stage.beta) * 1. + stage.beta * 1.);
       update_rates(stage, m, next);
-      m        = next;
-      t       += dt;
+      m = next;
+      t += dt;
       previous = dt;
     }
   CHECK(m.position.local()[0] == Approx(-.5 * t + .5 * t * t).margin(1e-12));
@@ -239,7 +221,7 @@ TEST_CASE("Motion under constant acceleration is exact, whatever the steps do")
 TEST_CASE("Generalized-alpha is of second order under constant and under changing steps")
 {
   const double rho     = GENERATE(0., .5, .8, 1.);
-  const auto   pattern = GENERATE(constant, alternate, grow_shrink);
+  const auto   pattern = GENERATE(constant, alternate, sawtooth);
   CAPTURE(rho, pattern);
   const int n = pattern.size() == 1 ? 320 : pattern.size() == 3 ? 100 : 60;
   CHECK(order(GeneralizedAlpha(rho), pattern, n) == Approx(2.).margin(.05));
@@ -248,19 +230,19 @@ TEST_CASE("Generalized-alpha is of second order under constant and under changin
 TEST_CASE("Constants that ignore the change of the step fall towards first order")
 {
   const double rho     = GENERATE(0., .5, .8);
-  const auto   pattern = GENERATE(alternate, grow_shrink);
+  const auto   pattern = GENERATE(alternate, sawtooth);
   CAPTURE(rho, pattern);
   // At rho = 0.8 the first-order part is small and shows on fine steps only.
   const int n = rho > .7 ? 2000 : 400;
   CHECK(order(PlainGeneralizedAlpha(rho), pattern, n) < 1.3);
   CHECK(order(PlainGeneralizedAlpha(rho), constant, 320) == Approx(2.).margin(.05));
-  const auto sizes = relative(pattern, n);
+  const auto sizes = steps(pattern, n);
   CHECK(error(GeneralizedAlpha(rho), sizes) < .2 * error(PlainGeneralizedAlpha(rho), sizes));
 }
 
 TEST_CASE("Newmark: the trapezoidal rule is of second order, damping makes it first")
 {
-  const auto pattern = GENERATE(constant, alternate, grow_shrink);
+  const auto pattern = GENERATE(constant, alternate, sawtooth);
   CAPTURE(pattern);
   const int n = pattern.size() == 1 ? 640 : 200;
   CHECK(order(Newmark(), pattern, n) == Approx(2.).margin(.05));
@@ -272,17 +254,17 @@ TEST_CASE("Spectral radius at high frequency is rho_inf")
   const double rho = GENERATE(0., .3, .5, .8, 1.);
   CAPTURE(rho);
   const Stage stage = GeneralizedAlpha(rho).stage(1., 1.);
-  // A triple eigenvalue at rho_inf = 0 is only as exact as the cube root of rounding.
-  CHECK(spectral_radius(amplification(stage, 1e8)) == Approx(rho).margin(1e-3));
+  // Three eigenvalues meet there: the distance falls with the cube root of 1/(omega dt)^2.
+  CHECK(spectral_radius(amplification(stage, 1e12)) == Approx(rho).margin(5e-4));
   CHECK(spectral_radius(amplification(stage, 1e-6)) == Approx(1.).margin(1e-8));
 }
 
 TEST_CASE("No frequency grows over a cycle of changing steps")
 {
   const double rho     = GENERATE(0., .5, .8, 1.);
-  const auto   pattern = GENERATE(alternate, grow_shrink);
+  const auto   pattern = GENERATE(alternate, sawtooth);
   CAPTURE(rho, pattern);
-  const auto sizes = relative(pattern, 1);
+  const auto sizes = steps(pattern, 1);
   for (double omega2 = 1e-4; omega2 < 1e8; omega2 *= 3.)
     {
       Eigen::Matrix3d A        = Eigen::Matrix3d::Identity();

@@ -27,9 +27,9 @@ struct Oscillator
   template <class Integrator>
   Motion run(const Integrator &integrator, const std::vector<double> &sizes, double x0, double v0) const
   {
-    const auto d = std::make_shared<const Distribution>(MPI_COMM_SELF, std::vector<std::int64_t>{0},
-                                                        std::vector<std::int64_t>{});
-    Motion     motion{Vector(d, 1), Vector(d, 1), Vector(d, 1)};
+    const auto d =
+        std::make_shared<const Distribution>(MPI_COMM_SELF, std::vector<std::int64_t>{0}, std::vector<std::int64_t>{});
+    Motion motion{Vector(d, 1), Vector(d, 1), Vector(d, 1)};
     motion.position.local()[0]     = x0;
     motion.velocity.local()[0]     = v0;
     motion.acceleration.local()[0] = force(x0, v0, 0.);
@@ -54,8 +54,8 @@ struct Oscillator
         return interpolate(alpha, a, b).local()[0];
       };
       return level(stage.alpha_m, old.acceleration, next.acceleration) -
-             force(level(stage.alpha_f, old.position, next.position),
-                   level(stage.alpha_f, old.velocity, next.velocity), time + stage.alpha_f * stage.dt);
+             force(level(stage.alpha_f, old.position, next.position), level(stage.alpha_f, old.velocity, next.velocity),
+                   time + stage.alpha_f * stage.dt);
     };
     const double start = next.position.local()[0];
     const double r0    = residual(start);

@@ -124,10 +124,10 @@ TEST_CASE("Steps end exactly where they should and leave no tiny one")
   std::uniform_real_distribution<double> size(.01, 1.);
   for (int k = 0; k < 200; ++k)
     {
-      auto         d = controller(100., size(random));
-      const double end = 3. * size(random);
+      auto         d    = controller(100., size(random));
+      const double end  = 3. * size(random);
       double       time = 0., smallest = 1., first = d.step();
-      int          n    = 0;
+      int          n = 0;
       while (time < end)
         {
           const double dt = d.step_within(end - time);

@@ -10,6 +10,7 @@
 #include <sherd/base/formula.h>
 #include <sherd/base/output_directory.h>
 #include <sherd/base/parameters.h>
+#include <sherd/base/print.h>
 #include <sherd/base/progress.h>
 #include <sherd/base/stop_request.h>
 #include <sherd/fracture/crack_density/fourth_order.h>
@@ -156,7 +157,7 @@ void break_plate(const Environment &env, const step_7::Parameters &prm)
       if (const auto reason = stop_requested(env))
         {
           recorder.finish(solver, "stopped early: " + *reason);
-          throw StoppedEarly("stopped at t = " + std::to_string(state.time) + " s: " + *reason);
+          throw StoppedEarly("stopped at t = " + print(state.time) + " s: " + *reason);
         }
     }
   recorder.finish(solver, "done");

@@ -100,8 +100,9 @@ StepSummary Adaptivity<Model>::advance(Solver         &solver,
   StepSummary summary;
   for (;;)
     {
-      const double dt     = controller.step_within(end_time - state.time);
-      auto         result = solver.attempt(state, dt);
+      const double remaining = end_time - state.time;
+      const double dt        = controller.step_within(remaining);
+      auto         result    = solver.attempt(state, dt);
       ++summary.attempts;
       summary.linear += result.linear;
       summary.switched += result.switched;
@@ -110,7 +111,7 @@ StepSummary Adaptivity<Model>::advance(Solver         &solver,
         {
           ++summary.rejected;
           summary.messages.push_back("rejected: " + result.failure);
-          controller.reject(result.failure);
+          controller.reject(result.failure, dt);
           continue;
         }
 
@@ -125,7 +126,10 @@ StepSummary Adaptivity<Model>::advance(Solver         &solver,
           continue;
         }
 
-      state                 = std::move(*result.state);
+      state = std::move(*result.state);
+      // The sum of time and step may miss the end by rounding.
+      if (dt == remaining)
+        state.time = end_time;
       summary.dt            = dt;
       summary.newton        = result.newton;
       summary.external_work = result.external_work;
@@ -134,8 +138,9 @@ StepSummary Adaptivity<Model>::advance(Solver         &solver,
         const auto timing = solver.timers().measure("energies");
         summary.energies  = solver.energies(state, state.previous_phase);
       }
-      controller.accept(result.newton);
-      if (!triggers.empty())
+      if (triggers.empty())
+        controller.accept(result.newton);
+      else
         {
           refine(solver, surface, space, state, triggers);
           controller.refine();

@@ -42,6 +42,14 @@ public:
 
   Scope measure(const std::string &phase) { return {*this, phase}; }
 
+  /// Books @p seconds of the phase @p from, which has been measured, on the phase @p to: for work that reports itself
+  /// how its time divides.
+  void reassign(const std::string &from, const std::string &to, double seconds)
+  {
+    seconds_[from] -= seconds;
+    seconds_[to] += seconds;
+  }
+
   /// Seconds of every phase that has ended or was interrupted by an inner one, on this rank.
   const std::map<std::string, double> &seconds() const { return seconds_; }
 

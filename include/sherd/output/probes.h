@@ -56,10 +56,10 @@ public:
               const std::vector<Point<spacedim>> &reactions);
 
 private:
-  Probes(CsvTable table, std::vector<SurfacePlace> places) : table_(std::move(table)), places_(std::move(places)) {}
+  Probes(std::vector<SurfacePlace> places, CsvTable table) : places_(std::move(places)), table_(std::move(table)) {}
 
-  CsvTable                  table_;
   std::vector<SurfacePlace> places_;
+  CsvTable                  table_;
 };
 
 } // namespace sherd

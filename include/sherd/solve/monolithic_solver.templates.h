@@ -144,15 +144,21 @@ MonolithicSolver<Model, Integrator>::linearise(System &system, PhaseTangent tang
                        (model_->split.bulk() + model_->split.shear()) * peaks[1] * std::sqrt(n_unknowns);
   const double reference = std::sqrt(std::max({sums[1], sums[2], sums[3]}));
   const double allowed   = settings_.displacement_tolerance * reference + floor;
-  return {std::isfinite(sums[0]) ? std::sqrt(sums[0]) / allowed : nan,
-          std::isfinite(sums[0]) ? peaks[0] / settings_.phase_tolerance : nan};
+  if (!std::isfinite(sums[0] + sums[1] + sums[2] + sums[3]))
+    return {nan, nan};
+  return {std::sqrt(sums[0]) / allowed, peaks[0] / settings_.phase_tolerance};
 }
 
 template <class Model, TimeIntegrator Integrator>
 void MonolithicSolver<Model, Integrator>::solve_increment(System &system, Result &result)
 {
-  constrain_rows(system.fixed);
-  const auto report = linear_solver_.solve(*matrix_, system.residual, system.increment);
+  SolveReport report;
+  {
+    const auto timing = timers_.measure("solve");
+    constrain_rows(system.fixed);
+    report = linear_solver_.solve(*matrix_, system.residual, system.increment);
+  }
+  timers_.reassign("solve", "preconditioner", report.setup_seconds);
   result.linear += report.iterations;
   if (report.escalated)
     result.messages.push_back(report.message);

@@ -16,8 +16,9 @@ class LRMesh;
 ///
 /// An element is split by every line that crosses it from edge to edge, and its parts again, until none does. A line
 /// that ends inside an element does not split it. The result depends only on the lines, not on the order of the splits:
-/// two lines that cross an element also cross the parts the other makes.  theory H.5 Elements are numbered tree by
-/// tree, so parts of an element follow each other and keep the place of their parent.
+/// two lines that cross an element also cross the parts the other makes.  theory H.5
+///
+/// Numbering: parts of an element follow each other and take the place of their parent.
 class ElementTree
 {
 public:

@@ -15,15 +15,15 @@ namespace sherd
 /// Factors of the step size, paper Eq. (13), and what happens on rejection (theory F.3, F.4).
 struct StepControlSettings
 {
-  double initial          = 0.;   ///< first step [time], > 0
-  double few              = 1.5;  ///< fewer than 4 Newton iterations
-  double normal           = 1.1;  ///< 4 iterations
-  double many             = .5;   ///< more than 4
-  double refined          = .2;   ///< after local refinement
-  double rejected         = .5;   ///< first retry
-  double rejected_again   = .2;   ///< later retries
-  double courant          = .99;  ///< dt_max = courant * dx_min / (0.6 c_R)
-  double smallest         = 1e-8; ///< dt_min / dt_max, below which a run ends
+  double initial        = 0.;   ///< first step [time], > 0
+  double few            = 1.5;  ///< fewer than 4 Newton iterations
+  double normal         = 1.1;  ///< 4 iterations
+  double many           = .5;   ///< more than 4
+  double refined        = .2;   ///< after local refinement
+  double rejected       = .5;   ///< first retry
+  double rejected_again = .2;   ///< later retries
+  double courant        = .99;  ///< dt_max = courant * dx_min / (0.6 c_R)
+  double smallest       = 1e-8; ///< dt_min / dt_max, below which a run ends
 
   void declare(ParameterSection &section)
   {

@@ -1,0 +1,176 @@
+// label: unit
+#include <Eigen/Eigenvalues>
+#include <catch2/catch.hpp>
+
+#include <forms/element_problem.h>
+#include <sherd/verify/derivative.h>
+
+using namespace sherd;
+using namespace sherd::test;
+
+namespace
+{
+
+enum class Past
+{
+  loading,   ///< no history anywhere
+  unloading, ///< history above the present energy everywhere
+  both       ///< in turn
+};
+
+/// Which of the unknowns: the displacements or the phase.
+enum class Part
+{
+  u,
+  phi
+};
+
+/// The part of a vector, zero elsewhere.
+Eigen::VectorXd only(Part part, Eigen::VectorXd y)
+{
+  for (Eigen::Index i = 0; i < y.size(); ++i)
+    if ((i % 3 == 2) != (part == Part::phi))
+      y[i] = 0.;
+  return y;
+}
+
+Eigen::VectorXd random_direction(Eigen::Index n, unsigned seed)
+{
+  std::mt19937    random(seed);
+  Eigen::VectorXd d(n);
+  for (auto &value : d)
+    value = symmetric(random);
+  return d;
+}
+
+template <class Problem>
+typename Problem::History past_history(const Problem &problem, const Eigen::VectorXd &y, Past past)
+{
+  auto history = problem.active_energy(y);
+  for (std::size_t q = 0; q < history.size(); ++q)
+    history[q] = past == Past::loading || (past == Past::both && q % 2 == 0) ? 0. : 3. * history[q];
+  return history;
+}
+
+/// J - 1 must not change its sign on the path of the difference quotients, where the stress has a kink.
+template <class Problem>
+bool stays_on_one_side(const Problem &problem, const Eigen::VectorXd &y, const Eigen::VectorXd &direction, double J)
+{
+  for (const double h : {-1e-2, 0., 1e-2})
+    {
+      const auto f = problem.fields(y + h * direction);
+      for (int q = 0; q < problem.n_q; ++q)
+        {
+          std::optional<ShapeValues<2>> storage;
+          const auto                   &s = problem.data.geometry.shapes(storage);
+          Eigen::Matrix2d               a = Eigen::Matrix2d::Zero();
+          for (int b = 0; b < problem.n_b; ++b)
+            a += Eigen::Vector2d(f.position[0][b], f.position[1][b]) * Eigen::RowVector2d(s.d1[q][b], s.d2[q][b]);
+          const double det =
+            a.determinant() * BernsteinTable<2>::get().weights[q] / problem.data.geometry.reference[q].dA;
+          if ((std::abs(det) > 1.) != (J > 1.))
+            return false;
+        }
+    }
+  return true;
+}
+
+} // namespace
+
+TEMPLATE_TEST_CASE("Every block of the tangent is the derivative of the force", "", CubicFourthStretch,
+                   QuadraticSecondStretch, CubicSecondNone, QuadraticFourthNone)
+{
+  const auto   shape   = GENERATE(Shape::distorted, Shape::overloaded, Shape::rational);
+  const double J       = GENERATE(1.3, .75);
+  const auto   past    = GENERATE(Past::loading, Past::unloading, Past::both);
+  const auto   problem = sample_problem<TestType>(shape);
+  if (shape == Shape::overloaded)
+    REQUIRE(problem.n_points() > 12);
+  CAPTURE(static_cast<int>(shape), J, static_cast<int>(past));
+
+  // The overloaded element is four times smaller.
+  const double size      = std::sqrt(problem.area());
+  const auto   y         = problem.deformed(deformation(J), .03 * size, 5);
+  const auto   history   = past_history(problem, y, past);
+  const auto   tangent   = problem.linearise(y, history).matrix;
+  const auto   direction = random_direction(y.size(), 17);
+  for (const auto column : {Part::u, Part::phi})
+    {
+      const Eigen::VectorXd d = only(column, direction) * (column == Part::u ? size : 1.);
+      REQUIRE(stays_on_one_side(problem, y, d, J));
+      for (const auto row : {Part::u, Part::phi})
+        {
+          const auto check = verify::check_derivative(
+            [&](double h) { return only(row, problem.force(y + h * d, history)); }, only(row, tangent * d));
+          CAPTURE(static_cast<int>(row), static_cast<int>(column), check.order, check.smallest_defect);
+          CHECK(check.order > check.required_order);
+          CHECK(check.smallest_defect < check.allowed_defect);
+        }
+    }
+
+  // Phase and deformation couple in the row of the phase only where the history loads.
+  const Eigen::VectorXd coupling = only(Part::phi, tangent * only(Part::u, direction));
+  CHECK((coupling.norm() > 1e-3 * tangent.norm() * size) == (past != Past::unloading));
+}
+
+TEMPLATE_TEST_CASE("While the history loads, the force is the derivative of the energy", "", CubicFourthStretch,
+                   QuadraticSecondStretch, CubicSecondNone, QuadraticFourthNone)
+{
+  const auto            shape     = GENERATE(Shape::distorted, Shape::overloaded, Shape::rational);
+  const double          J         = GENERATE(1.3, .75);
+  const auto            problem   = sample_problem<TestType>(shape);
+  const double          size      = std::sqrt(problem.area());
+  const auto            y         = problem.deformed(deformation(J), .03 * size, 6);
+  const Eigen::VectorXd direction = random_direction(y.size(), 3);
+  const Eigen::VectorXd d         = only(Part::u, direction) * size + only(Part::phi, direction);
+  REQUIRE(stays_on_one_side(problem, y, d, J));
+  const auto check = verify::check_derivative([&](double h) { return problem.energy(y + h * d); },
+                                              problem.force(y, {}).dot(d));
+  CAPTURE(static_cast<int>(shape), J, check.order, check.smallest_defect);
+  CHECK(check.order > check.required_order);
+  CHECK(check.smallest_defect < check.allowed_defect);
+
+  // Then the tangent is a Hessian.
+  const auto K = problem.linearise(y, {}).matrix;
+  CHECK((K - K.transpose()).norm() < 1e-13 * K.norm());
+}
+
+TEST_CASE("Force and tangent return the same force")
+{
+  const auto problem = sample_problem<CubicFourthStretch>(Shape::rational);
+  const auto y       = problem.deformed(deformation(1.2), .03, 5);
+  const auto history = past_history(problem, y, Past::both);
+  CHECK((problem.force(y, history) - problem.linearise(y, history, 2.).force).norm() == 0.);
+}
+
+TEST_CASE("The switched tangent has a positive phase stiffness, and differs in nothing else")
+{
+  // Intact under three times the onset energy: kappa = g'' H + Gc/(2 l0) is negative.
+  const auto      problem = sample_problem<CubicFourthStretch>(Shape::distorted);
+  Eigen::VectorXd y       = problem.deformed(Eigen::Matrix2d::Identity(), 0., 1);
+  for (Eigen::Index i = 2; i < y.size(); i += 3)
+    y[i] = 1.;
+  std::array<double, 9> history;
+  for (std::size_t q = 0; q < history.size(); ++q)
+    history[q] = 3. * branch::onset(problem.model.degradation, problem.data.toughness[q], .4);
+
+  const auto consistent = problem.linearise(y, history).matrix;
+  const auto switched   = problem.linearise(y, history, 0., PhaseTangent::switched).matrix;
+  const auto phase      = [&](const Eigen::MatrixXd &K) {
+    Eigen::MatrixXd block(problem.n_points(), problem.n_points());
+    for (int A = 0; A < problem.n_points(); ++A)
+      for (int B = 0; B < problem.n_points(); ++B)
+        block(A, B) = K(3 * A + 2, 3 * B + 2);
+    return block;
+  };
+  Eigen::MatrixXd difference = switched - consistent;
+  for (int A = 0; A < problem.n_points(); ++A)
+    for (int B = 0; B < problem.n_points(); ++B)
+      difference(3 * A + 2, 3 * B + 2) = 0.;
+  CHECK(difference.norm() == 0.);
+  const Eigen::VectorXd one = Eigen::VectorXd::Ones(problem.n_points());
+  CHECK(one.dot(phase(consistent) * one) < 0.);
+  CHECK(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(phase(switched)).eigenvalues()[0] > 0.);
+  // kappa = (1 - 3 (6 - 4 s)/(6 - 4 s)) Gc/(2 l0) = -2 Gc/(2 l0): the switch turns its sign.
+  CHECK(one.dot(phase(switched) * one) == Approx(-one.dot(phase(consistent) * one)).epsilon(1e-12));
+}
