@@ -107,20 +107,21 @@ void validate(const CrackOptions &options)
                            ", expected a phase value in (0, 1); 0.1 is usual");
 }
 
-CrackTree::CrackTree(const CrackOptions &options) : options_(options)
+CrackTree::CrackTree(const CrackOptions &options, State state) : options_(options), state_(std::move(state))
 {
   validate(options);
 }
 
 int CrackTree::n_active() const
 {
-  return static_cast<int>(std::count_if(tips_.begin(), tips_.end(), [](const auto &tip) { return tip.active; }));
+  return static_cast<int>(
+      std::count_if(state_.tips.begin(), state_.tips.end(), [](const auto &tip) { return tip.active; }));
 }
 
 std::optional<CrackTip> CrackTree::fastest() const
 {
   const CrackTip *best = nullptr;
-  for (const auto &tip : tips_)
+  for (const auto &tip : state_.tips)
     if (tip.active && (!best || tip.speed > best->speed))
       best = &tip;
   return best ? std::optional(*best) : std::nullopt;
@@ -135,17 +136,17 @@ void CrackTree::advance(const CrackGraph &graph, const std::vector<int> &ends, d
     if (tip_of[end] < 0)
       {
         add(graph, ends, end, matched);
-        tip_of[end] = tips_.back().id;
-        if (const auto &tip = tips_.back(); tip.parent >= 0)
+        tip_of[end] = state_.tips.back().id;
+        if (const auto &tip = state_.tips.back(); tip.parent >= 0)
           {
             const auto &arm = graph.arms[arm_of_end(graph, end)];
-            branchings_.push_back(
+            state_.branchings.push_back(
                 {time, graph.nodes[arm.nodes[0] == end ? arm.nodes[1] : arm.nodes[0]].point.X, tip.parent, tip.id});
           }
       }
   for (const int end : ends)
     {
-      auto &tip = tips_[tip_of[end]];
+      auto &tip = state_.tips[tip_of[end]];
       tip.X     = graph.nodes[end].point.X;
       // Without a way to its anchor (a crack that has healed in between) a tip keeps its length.
       if (const double d = distance_to(graph, shortest_paths(graph, end), closest_place(graph, tip.anchor));
@@ -153,34 +154,34 @@ void CrackTree::advance(const CrackGraph &graph, const std::vector<int> &ends, d
         tip.length = d;
       update_speed(tip, time);
     }
-  time_ = time;
+  state_.time = time;
 }
 
 void CrackTree::match(const CrackGraph &graph, const std::vector<int> &ends, double time, std::vector<int> &tip_of)
 {
-  const double limit = 8. * options_.length_scale + options_.rayleigh_speed * (time_ ? time - *time_ : 0.);
+  const double limit = 8. * options_.length_scale + options_.rayleigh_speed * (state_.time ? time - *state_.time : 0.);
   std::vector<std::tuple<double, int, int>> pairs;
-  for (const auto &tip : tips_)
+  for (const auto &tip : state_.tips)
     if (tip.active)
       for (const int end : ends)
         if (const double d = (graph.nodes[end].point.X - tip.X).norm(); d <= limit)
           pairs.emplace_back(d, tip.id, end);
   std::sort(pairs.begin(), pairs.end());
-  std::vector<char> found(tips_.size(), false);
+  std::vector<char> found(state_.tips.size(), false);
   for (const auto &[distance, id, end] : pairs)
     if (!found[id] && tip_of[end] < 0)
       {
         found[id]   = true;
         tip_of[end] = id;
       }
-  for (auto &tip : tips_)
+  for (auto &tip : state_.tips)
     tip.active = found[tip.id];
 }
 
 void CrackTree::add(const CrackGraph &graph, const std::vector<int> &ends, int end, const std::vector<int> &tip_of)
 {
-  CrackTip   tip{static_cast<int>(tips_.size()), -1, true, graph.nodes[end].point.X,
-               graph.nodes[end].point.X,       0., 0.,   {}};
+  CrackTip tip{
+      static_cast<int>(state_.tips.size()), -1, true, graph.nodes[end].point.X, graph.nodes[end].point.X, 0., 0., {}};
   const auto paths = shortest_paths(graph, end);
   const auto nodes = static_cast<int>(graph.nodes.size());
   int        next = -1, edge_end = -1, farthest = -1;
@@ -197,7 +198,7 @@ void CrackTree::add(const CrackGraph &graph, const std::vector<int> &ends, int e
   if (next >= 0 && graph.nodes[foot].degree > 2)
     {
       tip.parent = tip_of[next];
-      tip.anchor = tips_[tip.parent].anchor;
+      tip.anchor = state_.tips[tip.parent].anchor;
     }
   else
     {
@@ -211,7 +212,7 @@ void CrackTree::add(const CrackGraph &graph, const std::vector<int> &ends, int e
       else if (farthest >= 0)
         tip.anchor = middle_of_path(graph, paths, end, farthest);
     }
-  tips_.push_back(std::move(tip));
+  state_.tips.push_back(std::move(tip));
 }
 
 void CrackTree::update_speed(CrackTip &tip, double time) const

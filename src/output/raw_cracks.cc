@@ -19,7 +19,7 @@ Eigen::Vector2d to_vector(Sample s)
 
 bool is_broken(const SampleGrid &grid, const Eigen::Vector2d &p)
 {
-  return grid.depth_or_zero({static_cast<int>(std::lround(p[0])), static_cast<int>(std::lround(p[1]))}) != 0;
+  return grid.depth_or_zero({static_cast<int>(std::floor(p[0] + 0.5)), static_cast<int>(std::floor(p[1] + 0.5))}) != 0;
 }
 
 /// Distance from @p p along @p direction to the first sample that is not broken.

@@ -67,7 +67,7 @@ bool stays_on_one_side(const Problem &problem, const Eigen::VectorXd &y, const E
           for (int b = 0; b < problem.n_b; ++b)
             a += Eigen::Vector2d(f.position[0][b], f.position[1][b]) * Eigen::RowVector2d(s.d1[q][b], s.d2[q][b]);
           const double det =
-            a.determinant() * BernsteinTable<2>::get().weights[q] / problem.data.geometry.reference[q].dA;
+              a.determinant() * BernsteinTable<2>::get().weights[q] / problem.data.geometry.reference[q].dA;
           if ((std::abs(det) > 1.) != (J > 1.))
             return false;
         }
@@ -101,7 +101,7 @@ TEMPLATE_TEST_CASE("Every block of the tangent is the derivative of the force", 
       for (const auto row : {Part::u, Part::phi})
         {
           const auto check = verify::check_derivative(
-            [&](double h) { return only(row, problem.force(y + h * d, history)); }, only(row, tangent * d));
+              [&](double h) { return only(row, problem.force(y + h * d, history)); }, only(row, tangent * d));
           CAPTURE(static_cast<int>(row), static_cast<int>(column), check.order, check.smallest_defect);
           CHECK(check.order > check.required_order);
           CHECK(check.smallest_defect < check.allowed_defect);
@@ -124,8 +124,8 @@ TEMPLATE_TEST_CASE("While the history loads, the force is the derivative of the 
   const Eigen::VectorXd direction = random_direction(y.size(), 3);
   const Eigen::VectorXd d         = only(Part::u, direction) * size + only(Part::phi, direction);
   REQUIRE(stays_on_one_side(problem, y, d, J));
-  const auto check = verify::check_derivative([&](double h) { return problem.energy(y + h * d); },
-                                              problem.force(y, {}).dot(d));
+  const auto check =
+      verify::check_derivative([&](double h) { return problem.energy(y + h * d); }, problem.force(y, {}).dot(d));
   CAPTURE(static_cast<int>(shape), J, check.order, check.smallest_defect);
   CHECK(check.order > check.required_order);
   CHECK(check.smallest_defect < check.allowed_defect);

@@ -162,9 +162,9 @@ TEST_CASE("Energies of a homogeneous state")
     }
   std::array<double, 9> history;
   history.fill(5.);
-  const auto   e    = problem.energies(y, v, old, history);
-  const auto   F    = deformation(J);
-  const double dil  = K / 4. * (J * J - 1. - 2. * std::log(J)), dev = G / 2. * ((F.transpose() * F).trace() / J - 2.);
+  const auto   e   = problem.energies(y, v, old, history);
+  const auto   F   = deformation(J);
+  const double dil = K / 4. * (J * J - 1. - 2. * std::log(J)), dev = G / 2. * ((F.transpose() * F).trace() / J - 2.);
   const double plus = J > 1. ? dil + dev : dev, minus = J > 1. ? 0. : dil;
   const degradation::Cubic g;
   CHECK(e.active == Approx(g.value(phi) * plus).epsilon(1e-12));
@@ -211,11 +211,11 @@ TEST_CASE("Active energy and phase at the quadrature points")
 
 TEST_CASE("A model without length or mass is refused")
 {
-  const auto   make = [](double l0, double mass) {
+  const auto make = [](double l0, double mass) {
     return Model(decltype(Model::split)(material::NeoHooke(1., 1.)), {}, {}, 1., l0, mass);
   };
-  const double bad = GENERATE(0., -1., std::numeric_limits<double>::infinity(),
-                              std::numeric_limits<double>::quiet_NaN());
+  const double bad =
+      GENERATE(0., -1., std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN());
   CHECK_THROWS_AS(make(bad, 1.), InvalidParameter);
   CHECK_THROWS_AS(make(1., bad), InvalidParameter);
   CHECK_NOTHROW(make(1., 1.));

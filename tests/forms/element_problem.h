@@ -16,10 +16,10 @@ template <class Degradation, class Density, template <class, class> class Split,
 using Membrane = BrittleShell<degree, 2, Split<material::NeoHooke, material::NoBending>, Degradation, Density>;
 
 /// Every choice meets every other one once.
-using CubicFourthStretch    = Membrane<degradation::Cubic, crack_density::FourthOrder, split::SurfaceStretch>;
+using CubicFourthStretch     = Membrane<degradation::Cubic, crack_density::FourthOrder, split::SurfaceStretch>;
 using QuadraticSecondStretch = Membrane<degradation::Quadratic, crack_density::SecondOrder, split::SurfaceStretch>;
-using CubicSecondNone       = Membrane<degradation::Cubic, crack_density::SecondOrder, split::None>;
-using QuadraticFourthNone   = Membrane<degradation::Quadratic, crack_density::FourthOrder, split::None>;
+using CubicSecondNone        = Membrane<degradation::Cubic, crack_density::SecondOrder, split::None>;
+using QuadraticFourthNone    = Membrane<degradation::Quadratic, crack_density::FourthOrder, split::None>;
 /// Splines of degree 3.
 using CubicFourthStretch3 = Membrane<degradation::Cubic, crack_density::FourthOrder, split::SurfaceStretch, 3>;
 
@@ -62,7 +62,7 @@ class ElementProblem
 {
 public:
   static constexpr int n_b = ElementFields<Model>::n_b, n_q = ElementData<Model>::n_q, n_fields = Model::n_fields;
-  using History            = std::array<double, n_q>;
+  using History = std::array<double, n_q>;
 
   ElementProblem(const Model &model_, const Surface<Model::degree, 2> &surface, int element)
       : model(model_), data(element_data(model, surface, element)), X(data.geometry.points.size(), 2)
@@ -123,10 +123,8 @@ public:
     Eigen::MatrixXd matrix;
   };
 
-  Linearisation linearise(const Eigen::VectorXd &y,
-                          const History         &history,
-                          double                 mass_weight = 0.,
-                          PhaseTangent           tangent     = PhaseTangent::consistent) const
+  Linearisation linearise(const Eigen::VectorXd &y, const History &history, double mass_weight = 0.,
+                          PhaseTangent tangent = PhaseTangent::consistent) const
   {
     ElementVector<Model> f;
     ElementMatrix<Model> k;
@@ -172,9 +170,9 @@ public:
     return sum;
   }
 
-  Model                    model;
-  ElementData<Model>       data;
-  ControlValues<2>         X; ///< control points of the element
+  Model              model;
+  ElementData<Model> data;
+  ControlValues<2>   X; ///< control points of the element
 
 private:
   Eigen::VectorXd on_points(const ElementVector<Model> &f) const

@@ -28,7 +28,7 @@ void check_against_textbook(Shape shape, double J)
     history[q] *= q % 2 == 0 ? 2. : .5;
 
   const auto expected =
-    textbook_element(model, surface, element, y, acceleration, {history.begin(), history.end()}, .8);
+      textbook_element(model, surface, element, y, acceleration, {history.begin(), history.end()}, .8);
   const auto kernel = problem.linearise(y, history, .8);
   const auto force  = problem.force(y, history, acceleration);
 

@@ -17,21 +17,17 @@ struct TextbookElement
 };
 
 template <class Model>
-TextbookElement textbook_element(const Model                      &model,
-                                        const Surface<Model::degree, 2>  &surface,
-                                        int                               element,
-                                        const Eigen::VectorXd            &y,
-                                        const Eigen::VectorXd            &acceleration,
-                                        const std::vector<double>        &history,
-                                        double                            mass_weight)
+TextbookElement textbook_element(const Model &model, const Surface<Model::degree, 2> &surface, int element,
+                                 const Eigen::VectorXd &y, const Eigen::VectorXd &acceleration,
+                                 const std::vector<double> &history, double mass_weight)
 {
-  const auto &patch     = surface.patch(0);
-  const auto &box       = patch.basis.element(element);
-  const auto  functions = patch.basis.functions_of(element);
-  const int   n         = static_cast<int>(functions.size());
-  const auto &gauss     = gauss_legendre(Model::degree + 1);
-  const auto  voigt     = [](int a, int b) { return a == b ? a : 2; };
-  const double l0       = model.length_scale;
+  const auto  &patch     = surface.patch(0);
+  const auto  &box       = patch.basis.element(element);
+  const auto   functions = patch.basis.functions_of(element);
+  const int    n         = static_cast<int>(functions.size());
+  const auto  &gauss     = gauss_legendre(Model::degree + 1);
+  const auto   voigt     = [](int a, int b) { return a == b ? a : 2; };
+  const double l0        = model.length_scale;
 
   TextbookElement result{Eigen::VectorXd::Zero(3 * n), Eigen::MatrixXd::Zero(3 * n, 3 * n)};
   for (int q = 0; q < gauss.n_points * gauss.n_points; ++q)
@@ -41,12 +37,12 @@ TextbookElement textbook_element(const Model                      &model,
       const double v = box.min[1] + gauss.points[qv] * box.size()[1];
 
       // R = w B / W and its derivatives.
-      const auto                                     B = evaluate(patch.basis, element, u, v);
-      double                                         W = 0.;
-      std::array<double, 2>                          dW{};
-      std::array<std::array<double, 2>, 2>           ddW{};
-      std::vector<double>                            N(n);
-      std::vector<std::array<double, 2>>             dN(n);
+      const auto                                        B = evaluate(patch.basis, element, u, v);
+      double                                            W = 0.;
+      std::array<double, 2>                             dW{};
+      std::array<std::array<double, 2>, 2>              ddW{};
+      std::vector<double>                               N(n);
+      std::vector<std::array<double, 2>>                dN(n);
       std::vector<std::array<std::array<double, 2>, 2>> ddN(n);
       for (int A = 0; A < n; ++A)
         {
@@ -68,7 +64,7 @@ TextbookElement textbook_element(const Model                      &model,
           for (int a = 0; a < 2; ++a)
             for (int b = 0; b < 2; ++b)
               ddN[A][a][b] =
-                (w * B[A].second[voigt(a, b)] - dN[A][a] * dW[b] - dN[A][b] * dW[a] - N[A] * ddW[a][b]) / W;
+                  (w * B[A].second[voigt(a, b)] - dN[A][a] * dW[b] - dN[A][b] * dW[a] - N[A] * ddW[a][b]) / W;
         }
 
       // Reference surface: tangents, metric and Christoffel symbols.
@@ -92,9 +88,8 @@ TextbookElement textbook_element(const Model                      &model,
         }
       const Eigen::Matrix2d G    = reference.transpose() * reference;
       const Eigen::Matrix2d Ginv = G.inverse();
-      const double          dA =
-        std::abs(reference.determinant()) * box.area() * gauss.weights[qu] * gauss.weights[qv];
-      double christoffel[2][2][2] = {}; // [c][a][b]
+      const double          dA = std::abs(reference.determinant()) * box.area() * gauss.weights[qu] * gauss.weights[qv];
+      double                christoffel[2][2][2] = {}; // [c][a][b]
       for (int c = 0; c < 2; ++c)
         for (int a = 0; a < 2; ++a)
           for (int b = 0; b < 2; ++b)
@@ -117,18 +112,18 @@ TextbookElement textbook_element(const Model                      &model,
       // Material.
       const Eigen::Matrix2d g2       = current.transpose() * current;
       const auto            response = model.split.respond(SurfacePoint<2>(
-        ReferencePoint<2>(metric(Voigt(G(0, 0), G(1, 1), G(0, 1)))), metric(Voigt(g2(0, 0), g2(1, 1), g2(0, 1)))));
-      const double g        = model.degradation.value(phi);
-      const double g_first  = model.degradation.first(phi);
-      const double g_second = model.degradation.second(phi);
-      const bool   loading  = response.energy_active > history[q];
-      const double H        = loading ? response.energy_active : history[q];
-      const double Gc       = model.toughness(X);
-      const double c1       = model.crack_density.c1(l0);
-      const double c2       = model.crack_density.c2(l0);
-      const auto   tau_plus = [&](int a, int b) { return response.stress_active.membrane[voigt(a, b)]; };
-      const auto   tau = [&](int a, int b) { return g * tau_plus(a, b) + response.stress_passive.membrane[voigt(a, b)]; };
-      const auto   c   = [&](int a, int b, int d, int e) {
+          ReferencePoint<2>(metric(Voigt(G(0, 0), G(1, 1), G(0, 1)))), metric(Voigt(g2(0, 0), g2(1, 1), g2(0, 1)))));
+      const double          g        = model.degradation.value(phi);
+      const double          g_first  = model.degradation.first(phi);
+      const double          g_second = model.degradation.second(phi);
+      const bool            loading  = response.energy_active > history[q];
+      const double          H        = loading ? response.energy_active : history[q];
+      const double          Gc       = model.toughness(X);
+      const double          c1       = model.crack_density.c1(l0);
+      const double          c2       = model.crack_density.c2(l0);
+      const auto            tau_plus = [&](int a, int b) { return response.stress_active.membrane[voigt(a, b)]; };
+      const auto tau = [&](int a, int b) { return g * tau_plus(a, b) + response.stress_passive.membrane[voigt(a, b)]; };
+      const auto c   = [&](int a, int b, int d, int e) {
         return g * response.tangent_active.membrane(voigt(a, b), voigt(d, e)) +
                response.tangent_passive.membrane(voigt(a, b), voigt(d, e));
       };
@@ -161,8 +156,8 @@ TextbookElement textbook_element(const Model                      &model,
                         k(i, i) += dA * dN[A][a] * tau(a, b) * dN[C][b];
                         k(i, 2) += dA * g_first * tau_plus(a, b) * dN[A][a] * current(i, b) * N[C];
                         if (loading)
-                          k(2, i) += dA * g_first * N[A] * response.driving.membrane[voigt(a, b)] * dN[C][a] *
-                                     current(i, b);
+                          k(2, i) +=
+                              dA * g_first * N[A] * response.driving.membrane[voigt(a, b)] * dN[C][a] * current(i, b);
                       }
                   for (int j = 0; j < 2; ++j)
                     for (int a = 0; a < 2; ++a)

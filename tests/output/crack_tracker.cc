@@ -291,6 +291,28 @@ TEST_CASE("CrackTracker: refinement of the mesh changes nothing", "[output][crac
   CHECK(tracker.tree().tips().size() == 1);
 }
 
+TEST_CASE("CrackTracker: a copy and a restored tracker go on as the original would", "[output][crack]")
+{
+  const auto phase = [](double length) {
+    return test::control_values(unit_plate(), Cracks{l0, {{{-0.2, 0.5}, {length, 0.51}}}});
+  };
+  CrackTracker tracker(unit_plate(), options);
+  for (int step = 0; step < 4; ++step)
+    tracker.update(unit_plate(), phase(0.3 + 0.01 * step), 0.01 * step);
+  CrackTracker       restored(unit_plate(), options);
+  const CrackTracker before = tracker;
+  restored.restore(tracker.tree().state());
+
+  tracker.update(unit_plate(), phase(0.35), 0.05);
+  restored.update(unit_plate(), phase(0.35), 0.05);
+
+  CHECK(before.tree().tips()[0].recent.size() == 4);
+  CHECK(tracker.tree().tips()[0].recent.size() == 5);
+  CHECK(restored.tree().tips()[0].speed == tracker.tree().tips()[0].speed);
+  CHECK(restored.tree().tips()[0].id == tracker.tree().tips()[0].id);
+  CHECK(restored.length() == tracker.length());
+}
+
 TEST_CASE("CrackTracker: unusable options are refused", "[output][crack]")
 {
   CHECK_THROWS_AS(CrackTracker(unit_plate(), {0., c_R, l0}), InvalidParameter);

@@ -18,6 +18,9 @@ namespace sherd::test
 using Split = split::SurfaceStretch<material::NeoHooke>;
 using Glass = BrittleShell<2, 2, Split, degradation::Cubic, crack_density::FourthOrder>;
 
+template <class Model>
+using DegradationOf = decltype(Model::degradation);
+
 /// A brittle plate in units of its length scale, toughness and mass: l0 = Gc = rho = 1. With E = 10^4 damage starts at
 /// a strain of about 0.4 %.
 struct Units
@@ -29,7 +32,7 @@ struct Units
   template <class Model = Glass>
   Model model() const
   {
-    return Model(Split(material::NeoHooke(moduli())), {}, {}, toughness, 1., 1.);
+    return Model(Split(material::NeoHooke(moduli())), DegradationOf<Model>(), {}, toughness, 1., 1.);
   }
 };
 
@@ -137,6 +140,14 @@ inline double biaxial_stretch(double energy, double bulk)
   return high;
 }
 
+/// The tolerances of the library with a direct solver: quicker on a handful of unknowns.
+inline NewtonSettings direct()
+{
+  NewtonSettings settings;
+  settings.linear.preconditioner = Preconditioner::mumps;
+  return settings;
+}
+
 /// Tolerances at which a converged step is exact to about ten digits.
 inline NewtonSettings tight(Preconditioner preconditioner = Preconditioner::mumps)
 {
@@ -144,7 +155,7 @@ inline NewtonSettings tight(Preconditioner preconditioner = Preconditioner::mump
   settings.displacement_tolerance = 1e-10;
   settings.phase_tolerance        = 1e-10;
   settings.max_iterations         = 20;
-  settings.linear.tolerance       = 1e-12;
+  settings.linear.tolerance       = 1e-10;
   settings.linear.preconditioner  = preconditioner;
   return settings;
 }

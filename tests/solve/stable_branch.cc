@@ -78,7 +78,7 @@ TEST_CASE("The quadratic function has one state for each load, also of second or
 TEST_CASE("A load that jumps across the threshold ends on the stable branch")
 {
   const std::array<int, 2> elements = GENERATE(std::array<int, 2>{1, 1}, std::array<int, 2>{12, 1});
-  const auto               settings = GENERATE(NewtonSettings(), tight());
+  const auto               settings = GENERATE(direct(), tight());
   // The distance to the root is the tolerance over the slope of the residual there, mu - 1 = 0.2 or more.
   const double margin = 10. * settings.phase_tolerance + 1e-8;
   Body<Glass>  body(Units().model(), {.5 * elements[0], .5}, elements, settings);
@@ -99,7 +99,7 @@ TEST_CASE("A load that jumps across the threshold ends on the stable branch")
 
 TEST_CASE("Two hundred random jumps of the load never end on the false branch")
 {
-  Body<Glass>                            body(Units().model(), {4., .5}, {8, 1});
+  Body<Glass>                            body(Units().model(), {4., .5}, {8, 1}, direct());
   std::mt19937                           random(42);
   std::uniform_real_distribution<double> exponent(std::log(.02), std::log(3.));
   int                                    given_up = 0;
@@ -169,13 +169,14 @@ TEST_CASE("A load that is not homogeneous ends on the stable branch")
 
 TEST_CASE("The overshoot beside a pre-crack is sound")
 {
-  // h = l0: coarse enough for phi > 1 beside the crack.
-  Body<Glass> body(Units().model(), {24., 6.}, {24, 6});
-  body.crack(PreCrack<2>({Segment<2>{{12.2, -3.}, {12.2, 9.}}}, 1.));
+  // h = 3 l0: so coarse that phi > 1 beside the crack, which is neither an error nor a false branch.
+  Body<Glass> body(Units().model(), {72., 12.}, {24, 4});
+  body.crack(PreCrack<2>({Segment<2>{{37.5, -30.}, {37.5, 90.}}}, 1.));
   body.solver.equilibrate_phase(body.state);
   const auto result = body.solver.attempt(body.state, 1e-3);
   REQUIRE(result.state);
-  CHECK(result.largest_phase > 1. + 1e-6);
+  CHECK(body.smallest_phase() < 0.);
+  CHECK(result.largest_phase > 1. + 1e-4);
   CHECK(result.switched == 0);
   CHECK(result.newton <= 1);
 }
@@ -184,6 +185,7 @@ TEST_CASE("Values that are not finite are a failed attempt, not a crash")
 {
   const double bad   = GENERATE(std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity());
   const int    which = GENERATE(0, 1, 2, 3, 4);
+  // H = infinity is a point that cannot carry anything; it is refused like the others.
   CAPTURE(bad, which);
   Body<Glass> body(Units().model(), {4., 4.}, {4, 4});
   Vector     *fields[] = {&body.state.position, &body.state.velocity, &body.state.acceleration, &body.state.phase};
@@ -227,7 +229,7 @@ TEST_CASE("History keeps the damage when the load goes; without it cracks heal")
   // Returns the phase at the peak and at the end.
   const auto run = [&](auto &body) {
     std::array<double, 2> phases{};
-    const int             n = 80;
+    const int             n = 20;
     for (int i = 0; i < 2 * n; ++i)
       {
         auto result = body.solver.attempt(body.state, half / n);
@@ -240,13 +242,13 @@ TEST_CASE("History keeps the damage when the load goes; without it cracks heal")
     phases[1] = body.largest_phase();
     return phases;
   };
-  Body<Glass> keeping(Units().model(), {1., 1.}, {2, 2}, {}, supports);
+  Body<Glass> keeping(Units().model(), {1., 1.}, {2, 2}, direct(), supports);
   const auto  kept = run(keeping);
   CHECK(kept[0] == Approx(stable_phase(.4)).margin(.02));
   CHECK(kept[1] == Approx(stable_phase(.4)).margin(.02));
   CHECK(kept[1] < kept[0] + 1e-3);
 
-  Body<Healing> forgetting(Units().model<Healing>(), {1., 1.}, {2, 2}, {}, supports);
+  Body<Healing> forgetting(Units().model<Healing>(), {1., 1.}, {2, 2}, direct(), supports);
   const auto    healed = run(forgetting);
   CHECK(healed[0] == Approx(1. / (1. + 4. * .4)).margin(.02));
   CHECK(healed[1] == Approx(1.).margin(1e-3));

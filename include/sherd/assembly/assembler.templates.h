@@ -17,41 +17,23 @@ namespace internal
 inline constexpr int max_element_points = 48;
 
 /// out[i][j] = sum_ab E_ia K_ab E_jb for one pair of fields: the element matrix on control points.
-/// @param E   extraction, by rows, shape=(n, n_b)
-/// @param Et  its transpose, by rows with stride @p width, shape=(n_b, width), zero beyond n
+/// @param Et   transposed extraction, by rows, shape=(n_b, width), zero beyond column n
+/// @param out  by rows, shape=(n, width)
 template <int n_b, int width>
-inline void extract_block(int           n,
-                          const double *E,
-                          const double *Et,
-                          const double *K,
-                          int           stride_k,
-                          double (&out)[max_element_points][max_element_points])
+inline void extract_block(int n, const double *Et, const double *K, int stride_k, double *out)
 {
-  double right[n_b][width];
+  // right = K E^T, then out = E right; both as A^T B with A = K^T and A = E^T.
+  double transposed[n_b * n_b];
   for (int a = 0; a < n_b; ++a)
-    {
-      double sum[width] = {};
-      for (int b = 0; b < n_b; ++b)
-        {
-          const double k = K[a * stride_k + b];
-          for (int j = 0; j < width; ++j)
-            sum[j] += k * Et[b * width + j];
-        }
-      for (int j = 0; j < width; ++j)
-        right[a][j] = sum[j];
-    }
-  for (int i = 0; i < n; ++i)
-    {
-      double sum[width] = {};
-      for (int a = 0; a < n_b; ++a)
-        {
-          const double e = E[i * n_b + a];
-          for (int j = 0; j < width; ++j)
-            sum[j] += e * right[a][j];
-        }
-      for (int j = 0; j < width; ++j)
-        out[i][j] = sum[j];
-    }
+    for (int b = 0; b < n_b; ++b)
+      transposed[b * n_b + a] = K[a * stride_k + b];
+  alignas(64) double right[n_b * width] = {};
+  add_transposed_product<n_b, width>(n_b, transposed, n_b, Et, width, right, width);
+  std::fill_n(out, n * width, 0.);
+  for (int i = 0; i + 3 <= n; i += 3)
+    add_rows<3, width / 4>(n_b, Et + i, width, right, width, out + i * width, width);
+  for (int i = n / 3 * 3; i < n; ++i)
+    add_rows<1, width / 4>(n_b, Et + i, width, right, width, out + i * width, width);
 }
 
 } // namespace internal
@@ -178,9 +160,10 @@ void Assembler<Model>::scatter_matrix(int                         active,
   double *const values    = matrix.values().data();
 
   // The usual element of degree 2 has 9 to 12 functions; wider ones take the general path.
-  const int                    width = n <= 12 ? 12 : internal::max_element_points;
-  alignas(64) double           Et[n_b * internal::max_element_points] = {};
-  alignas(64) double           block[internal::max_element_points][internal::max_element_points];
+  constexpr int      widest = internal::max_element_points;
+  const int          width  = n <= 12 ? 12 : widest;
+  alignas(64) double Et[n_b * widest] = {};
+  alignas(64) double block[widest * widest];
   for (int i = 0; i < n; ++i)
     for (int b = 0; b < n_b; ++b)
       Et[b * width + i] = E(i, b);
@@ -190,16 +173,16 @@ void Assembler<Model>::scatter_matrix(int                         active,
       {
         const double *K = k.value[c * n_b] + d * n_b;
         if (width == 12)
-          internal::extract_block<n_b, 12>(n, E.data(), Et, K, k.stride, block);
+          internal::extract_block<n_b, 12>(n, Et, K, k.stride, block);
         else
-          internal::extract_block<n_b, internal::max_element_points>(n, E.data(), Et, K, k.stride, block);
+          internal::extract_block<n_b, widest>(n, Et, K, k.stride, block);
         for (int i = 0; i < n; ++i)
           if (points[i] >= range.begin && points[i] < range.end)
             {
               double    *row = values + matrix.row_start(points[i]) + c * matrix.row_length(points[i]) + d;
               const int *at  = positions.data() + i * n;
               for (int j = 0; j < n; ++j)
-                row[at[j] * n_fields] += block[i][j];
+                row[at[j] * n_fields] += block[i * width + j];
             }
       }
 }

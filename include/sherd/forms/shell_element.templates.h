@@ -83,8 +83,8 @@ void element_tangent(const Model                &model,
   constexpr int n_b    = ElementMatrix<Model>::n_b;
   constexpr int n_q    = ShapeValues<Model::degree>::n_points;
   constexpr int n_u    = dim * n_b;
-  constexpr int pad_u  = (n_u + 3) / 4 * 4;
-  constexpr int pad_b  = (n_b + 3) / 4 * 4;
+  constexpr int pad_u  = padded(n_u);
+  constexpr int pad_b  = padded(n_b);
   constexpr int stride = ElementMatrix<Model>::stride;
 
   std::optional<ShapeValues<Model::degree>> storage;
@@ -170,12 +170,16 @@ void element_tangent(const Model                &model,
 
   double *const K = matrix.value[0];
   add_transposed_product<n_u, pad_u>(3 * n_q, strain[0], pad_u, stress[0], pad_u, K, stride);
-  for (int d = 0; d < dim; ++d)
-    add_transposed_product<n_b, n_b>(3 * n_q, slope[0], pad_b, geometric[0], pad_b,
-                                     K + d * n_b * stride + d * n_b, stride);
-  add_transposed_product<n_u, n_b>(n_q, force_u[0], pad_u, value[0], pad_b, K + n_u, stride);
+  add_transposed_product<n_u, pad_b>(n_q, force_u[0], pad_u, value[0], pad_b, K + n_u, stride);
   add_transposed_product<n_b, pad_u>(n_q, value[0], pad_b, driving_u[0], pad_u, K + n_u * stride, stride);
-  add_transposed_product<n_b, n_b>(4 * n_q, phase_l[0], pad_b, phase_r[0], pad_b, K + n_u * stride + n_u, stride);
+  add_transposed_product<n_b, pad_b>(4 * n_q, phase_l[0], pad_b, phase_r[0], pad_b, K + n_u * stride + n_u, stride);
+
+  alignas(64) double same[n_b][pad_b] = {}; // what all components of the displacement share
+  add_transposed_product<n_b, pad_b>(3 * n_q, slope[0], pad_b, geometric[0], pad_b, same[0], pad_b);
+  for (int d = 0; d < dim; ++d)
+    for (int a = 0; a < n_b; ++a)
+      for (int b = 0; b < n_b; ++b)
+        K[(d * n_b + a) * stride + d * n_b + b] += same[a][b];
 }
 
 } // namespace sherd

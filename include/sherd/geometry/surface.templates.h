@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include <sherd/geometry/surface.h>
+#include <sherd/spline/independence.h>
 
 namespace sherd
 {
@@ -106,6 +107,11 @@ SurfaceRefinement Surface<degree, spacedim>::refine(const std::vector<int> &poin
       for (const int parent : refined.parent)
         result.parent.push_back(element_offset_[p] + parent);
     }
+  for (int p = 0; p < n_patches(); ++p)
+    if (const auto check = check_independence(patches_[p].basis); !check.independent())
+      throw Error("surface: refinement made " + std::to_string(check.dependent.size()) +
+                  " functions of patch " + std::to_string(p) +
+                  " linearly dependent; refine a wider neighbourhood (theory H.5)");
   number();
   return result;
 }

@@ -59,6 +59,9 @@ public:
   template <int degree, int spacedim>
   void update(const Surface<degree, spacedim> &surface, const Eigen::VectorXd &phase, double time);
 
+  /// Goes on from a checkpoint: the next update() follows the step whose tree().state() this is.
+  void restore(CrackTree::State state) { tree_ = CrackTree(options_, std::move(state)); }
+
   /// The cracks of the last step.
   const CrackGraph &cracks() const { return cracks_; }
 

@@ -56,7 +56,16 @@ void validate(const CrackOptions &options);
 class CrackTree
 {
 public:
-  explicit CrackTree(const CrackOptions &options);
+  /// Everything it remembers, for checkpoints.
+  struct State
+  {
+    std::optional<double>  time; ///< of the last step, if there was one
+    std::vector<CrackTip>  tips;
+    std::vector<Branching> branchings;
+  };
+
+  /// @throws InvalidParameter   from validate(options)
+  explicit CrackTree(const CrackOptions &options, State state = {});
 
   /// Takes the next accepted step.
   /// @param ends   nodes of the graph that are tips: ends inside the body; the other ends lie at its edge
@@ -64,10 +73,12 @@ public:
   void advance(const CrackGraph &graph, const std::vector<int> &ends, double time);
 
   /// All tips there have been, by id.
-  const std::vector<CrackTip> &tips() const { return tips_; }
+  const std::vector<CrackTip> &tips() const { return state_.tips; }
 
   /// All branchings, in order of time.
-  const std::vector<Branching> &branchings() const { return branchings_; }
+  const std::vector<Branching> &branchings() const { return state_.branchings; }
+
+  const State &state() const { return state_; }
 
   int n_active() const;
 
@@ -79,10 +90,8 @@ private:
   void add(const CrackGraph &graph, const std::vector<int> &ends, int end, const std::vector<int> &tip_of);
   void update_speed(CrackTip &tip, double time) const;
 
-  CrackOptions           options_;
-  std::optional<double>  time_;
-  std::vector<CrackTip>  tips_;
-  std::vector<Branching> branchings_;
+  CrackOptions options_;
+  State        state_;
 };
 
 } // namespace sherd

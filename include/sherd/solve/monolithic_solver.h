@@ -103,7 +103,7 @@ private:
 
   bool   find_stable_state(System &system, Result &result);
   bool   iterate(System &system, Result &result);
-  void   leave_false_branch(System &system, Result &result);
+  void   leave_false_branch(System &system, const Vector &start, Result &result);
   bool   on_stable_branch(System &system, Result &result);
   Norms  linearise(System &system, PhaseTangent tangent);
   void   solve_increment(System &system, Result &result);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <sherd/fracture/branch.h>
 #include <sherd/solve/definiteness.h>
@@ -211,16 +212,28 @@ bool MonolithicSolver<Model, Integrator>::iterate(System &system, Result &result
 }
 
 template <class Model, TimeIntegrator Integrator>
-void MonolithicSolver<Model, Integrator>::leave_false_branch(System &system, Result &result)
+void MonolithicSolver<Model, Integrator>::leave_false_branch(System &system, const Vector &start, Result &result)
 {
   // Newton with a positive phase stiffness goes downhill; once its residual is small the consistent tangent finishes.
+  // The residual is small also where it starts, close to the state that it leaves. From there the consistent tangent
+  // would lead back until the stiffness is positive definite everywhere, not just where the phase is close to 1.
   constexpr double close_enough = 100.;
   ++result.switched;
+  system.phase = start;
+  std::vector<int> everywhere(assembler_->distribution()->n_owned());
+  std::iota(everywhere.begin(), everywhere.end(), 0);
   for (int i = 0; i < settings_.max_switch_iterations; ++i)
     {
       const Norms norms = linearise(system, PhaseTangent::switched);
-      if (!std::isfinite(norms.larger()) || (i > 0 && norms.phase <= close_enough))
+      if (!std::isfinite(norms.larger()))
         return;
+      if (norms.phase <= close_enough)
+        {
+          linearise(system, PhaseTangent::consistent);
+          if (on_stable_branch(system, result) && positive_definite(*matrix_, spacedim, everywhere))
+            return;
+          linearise(system, PhaseTangent::switched);
+        }
       solve_increment(system, result);
       system.advance(branch::largest_phase_step);
     }
@@ -251,13 +264,14 @@ bool MonolithicSolver<Model, Integrator>::on_stable_branch(System &system, Resul
 template <class Model, TimeIntegrator Integrator>
 bool MonolithicSolver<Model, Integrator>::find_stable_state(System &system, Result &result)
 {
+  const Vector start = system.phase;
   try
     {
       if (!iterate(system, result))
         return false;
       if (on_stable_branch(system, result))
         return true;
-      leave_false_branch(system, result);
+      leave_false_branch(system, start, result);
       if (!iterate(system, result))
         return false;
       if (on_stable_branch(system, result))

@@ -10,7 +10,11 @@ namespace sherd::irreversibility
 /// It keeps the driving energy from falling. That the phase itself does not rise is not enforced at every point.
 struct History
 {
-  double trial(const double accepted, const double energy) const { return accepted >= energy ? accepted : energy; }
+  double trial(const double accepted, const double energy) const
+  {
+    // The last case is that of a value that is no number: it must not vanish in the comparison.
+    return energy > accepted ? energy : energy <= accepted ? accepted : energy + accepted;
+  }
   bool   is_loading(const double accepted, const double energy) const { return energy > accepted; }
 };
 
