@@ -124,6 +124,7 @@ void solve(benchmark::State &run)
   LinearSolverSettings settings;
   settings.preconditioner = static_cast<Preconditioner>(run.range(1));
   settings.escalation     = Escalation::never;
+  settings.reuse          = 0;
   LinearSolver solver(settings);
   Vector       solution(plate.state.distribution, 3);
   SolveReport  report;

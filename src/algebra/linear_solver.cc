@@ -82,6 +82,7 @@ void check(const LinearSolverSettings &settings)
   require(settings.tolerance > 0. && settings.tolerance < 1., "tolerance", settings.tolerance, "a value in (0, 1)");
   require(settings.iteration_limit >= 1, "iteration_limit", settings.iteration_limit, "at least 1");
   require(settings.max_iterations >= 1, "max_iterations", settings.max_iterations, "at least 1");
+  require(settings.reuse >= 0, "reuse", settings.reuse, "at least 0");
   require(settings.restart >= 1, "restart", settings.restart, "at least 1");
   require(settings.retry_interval >= 1, "retry_interval", settings.retry_interval, "at least 1");
 }
@@ -205,15 +206,22 @@ struct LinearSolver::Impl
   int                            solves_since_escalation = 0;
   std::unique_ptr<Factorisation> factors; ///< of factors_stage
   std::size_t                    factors_stage = 0;
+  std::shared_ptr<const SparseGraph> factors_graph;        ///< the matrix they belong to had this graph
+  int                                fresh_iterations = 0; ///< of the solve they were made for
+  bool                               keep_factors     = false;
+
+  /// Makes factors of the stage for this matrix; says why if they break down.
+  std::string factor(std::size_t stage, const Matrix &matrix, SolveReport &report);
+
+  /// Iterates with the present factors; returns what stopped it short of the tolerance, if anything did.
+  std::string iterate(const Matrix &matrix, Progress &progress, int limit, SolveReport &report, int &iterations);
 
   /// Uses one preconditioner until the tolerance is met or it has to be given up; returns what happened in words.
   std::string attempt(std::size_t stage, const Matrix &matrix, Progress &progress, SolveReport &report);
 };
 
-std::string LinearSolver::Impl::attempt(std::size_t stage, const Matrix &matrix, Progress &progress,
-                                        SolveReport &report)
+std::string LinearSolver::Impl::factor(std::size_t stage, const Matrix &matrix, SolveReport &report)
 {
-  std::string failure;
   try
     {
       const Stopwatch stopwatch(report.setup_seconds);
@@ -224,6 +232,7 @@ std::string LinearSolver::Impl::attempt(std::size_t stage, const Matrix &matrix,
           factors_stage = stage;
         }
       factors->compute(matrix);
+      factors_graph = matrix.shared_graph();
     }
   catch (const NoConvergence &error)
     {
@@ -235,10 +244,14 @@ std::string LinearSolver::Impl::attempt(std::size_t stage, const Matrix &matrix,
       factors.reset(); // half made
       throw;
     }
+  return {};
+}
 
-  const Stopwatch stopwatch(report.solve_seconds);
-  const int       limit = settings.escalation == Escalation::never ? settings.max_iterations : settings.iteration_limit;
-  int             iterations = 0;
+std::string LinearSolver::Impl::iterate(const Matrix &matrix, Progress &progress, int limit, SolveReport &report,
+                                        int &iterations)
+{
+  const Stopwatch     stopwatch(report.solve_seconds);
+  std::string         failure;
   std::vector<double> correction(progress.residual().size());
   bool                direct = factors->is_complete();
   while (failure.empty() && progress.relative_residual() > settings.tolerance)
@@ -249,10 +262,7 @@ std::string LinearSolver::Impl::attempt(std::size_t stage, const Matrix &matrix,
           iterations += 1;
         }
       else if (iterations >= limit)
-        {
-          failure = "gave up";
-          break;
-        }
+        return "gave up";
       else
         {
           // Somewhat below the tolerance, so that the recomputed residual meets it in spite of rounding.
@@ -269,6 +279,35 @@ std::string LinearSolver::Impl::attempt(std::size_t stage, const Matrix &matrix,
           iterations < limit)
         failure = "stagnated";
       direct = false;
+    }
+  return failure;
+}
+
+std::string LinearSolver::Impl::attempt(std::size_t stage, const Matrix &matrix, Progress &progress,
+                                        SolveReport &report)
+{
+  const int limit = settings.escalation == Escalation::never ? settings.max_iterations : settings.iteration_limit;
+  int       iterations = 0;
+
+  // Kept factors are no reason to escalate: where they do not do, fresh ones of the same kind go on from there.
+  const bool kept = keep_factors && factors && factors_stage == stage && factors_graph == matrix.shared_graph();
+  std::string failure;
+  if (kept)
+    {
+      const int patience = std::min(limit, 2 * (fresh_iterations + settings.reuse));
+      failure            = iterate(matrix, progress, patience, report, iterations);
+      keep_factors       = failure.empty() && iterations <= fresh_iterations + settings.reuse;
+    }
+  if (!kept || !failure.empty())
+    {
+      failure = factor(stage, matrix, report);
+      if (!failure.empty())
+        return failure;
+      int fresh        = 0;
+      failure          = iterate(matrix, progress, limit, report, fresh);
+      fresh_iterations = fresh;
+      iterations += fresh;
+      keep_factors = settings.reuse > 0 && failure.empty() && !factors->is_complete();
     }
   report.iterations += iterations;
 
@@ -297,6 +336,8 @@ const LinearSolverSettings &LinearSolver::settings() const
 void LinearSolver::forget()
 {
   impl_->factors.reset();
+  impl_->factors_graph.reset();
+  impl_->keep_factors            = false;
   impl_->first_stage             = 0;
   impl_->solves_since_escalation = 0;
 }

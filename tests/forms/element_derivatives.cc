@@ -140,7 +140,9 @@ TEST_CASE("Force and tangent return the same force")
   const auto problem = sample_problem<CubicFourthStretch>(Shape::rational);
   const auto y       = problem.deformed(deformation(1.2), .03, 5);
   const auto history = past_history(problem, y, Past::both);
-  CHECK((problem.force(y, history) - problem.linearise(y, history, 2.).force).norm() == 0.);
+  const auto force   = problem.force(y, history);
+  CHECK((force - problem.linearise(y, history, 2.).force).norm() <
+        1e-15 * force.norm()); // two compilations of one code
 }
 
 TEST_CASE("The switched tangent has a positive phase stiffness, and differs in nothing else")

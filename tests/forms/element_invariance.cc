@@ -212,7 +212,7 @@ TEST_CASE("Active energy and phase at the quadrature points")
 TEST_CASE("A model without length or mass is refused")
 {
   const auto make = [](double l0, double mass) {
-    return Model(decltype(Model::split)(material::NeoHooke(1., 1.)), {}, {}, 1., l0, mass);
+    return Model(decltype(Model::split)(material::NeoHooke(1., 1.)), degradation::Cubic(), {}, 1., l0, mass);
   };
   const double bad =
       GENERATE(0., -1., std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN());
@@ -225,7 +225,7 @@ TEST_CASE("A model without length or mass is refused")
 TEST_CASE("A toughness that fails inside an element says where")
 {
   const auto  surface = shapes::plate<2, 2>({1., 1.}, {2, 2});
-  const Model model(decltype(Model::split)(material::NeoHooke(1., 1.)), {}, {},
+  const Model model(decltype(Model::split)(material::NeoHooke(1., 1.)), degradation::Cubic(), {},
                     Toughness<2>([](const Point<2> &X) { return X[0] > .5 ? -1. : 1.; }), .1, 1.);
   CHECK_NOTHROW(element_data(model, surface, 0));
   CHECK_THROWS_AS(element_data(model, surface, 1), InvalidParameter);

@@ -27,7 +27,7 @@ using CubicFourthStretch3 = Membrane<degradation::Cubic, crack_density::FourthOr
 template <class Model>
 Model sample_model()
 {
-  return Model(decltype(Model::split)(material::NeoHooke(2.1, 1.3)), {}, {},
+  return Model(decltype(Model::split)(material::NeoHooke(2.1, 1.3)), decltype(Model::degradation)(), {},
                Toughness<2>([](const Point<2> &X) { return 1.1 + .3 * X[0] * X[1]; }), .4, 1.7);
 }
 

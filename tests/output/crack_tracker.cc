@@ -211,12 +211,12 @@ TEST_CASE("CrackTracker: a growing crack keeps its tip and has its speed", "[out
   };
   CrackTracker tracker(unit_plate(), options);
 
-  for (int step = 0; step <= 50; ++step)
+  for (int step = 0; step <= 30; ++step)
     {
       const double length = start + speed * step * dt;
       Cracks       cracks{l0, {{path(0.) - polar(0.3, 20.), path(0.)}}};
-      for (int k = 0; k < 40; ++k)
-        cracks.segments.push_back({path(length * k / 40), path(length * (k + 1) / 40)});
+      for (int k = 0; k < 12; ++k)
+        cracks.segments.push_back({path(length * k / 12), path(length * (k + 1) / 12)});
       tracker.update(unit_plate(), test::control_values(unit_plate(), cracks), step * dt);
       REQUIRE(tracker.tree().tips().size() == 1);
       if (step >= 5)
@@ -227,7 +227,8 @@ TEST_CASE("CrackTracker: a growing crack keeps its tip and has its speed", "[out
     }
 
   CHECK(tracker.tree().fastest()->id == 0);
-  CHECK(tracker.tree().tips()[0].length == Approx(tracker.length()).epsilon(1e-9));
+  // The origin is where the first step saw the crack leave the plate.
+  CHECK(tracker.tree().tips()[0].length == Approx(tracker.length()).margin(0.1 * sample));
   CHECK(tracker.tree().branchings().empty());
 }
 

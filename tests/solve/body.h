@@ -140,16 +140,8 @@ inline double biaxial_stretch(double energy, double bulk)
   return high;
 }
 
-/// The tolerances of the library with a direct solver: quicker on a handful of unknowns.
-inline NewtonSettings direct()
-{
-  NewtonSettings settings;
-  settings.linear.preconditioner = Preconditioner::mumps;
-  return settings;
-}
-
 /// Tolerances at which a converged step is exact to about ten digits.
-inline NewtonSettings tight(Preconditioner preconditioner = Preconditioner::mumps)
+inline NewtonSettings tight(Preconditioner preconditioner = Preconditioner::point_block_ilu)
 {
   NewtonSettings settings;
   settings.displacement_tolerance = 1e-10;

@@ -22,25 +22,29 @@ std::pair<long, long> place(const Point<2> &X)
 
 TEST_CASE("A pre-crack through a strip costs its toughness wherever it lies on the mesh")
 {
-  // theory D: 1.006 to 1.027 at h = l0/2, 1.002 to 1.014 at h = l0/4.
+  // theory D: 1.006 to 1.027 at h = l0/2, 1.002 to 1.014 at h = l0/4. The ends of the crack at the free edges cost less
+  // than its middle (lap phi = 0 there); the difference of two lengths leaves the middle alone.
   struct Mesh
   {
     double h, tolerance;
   };
-  const auto  mesh = GENERATE(Mesh{.5, .03}, Mesh{.25, .015});
-  Body<Glass> body(Units().model(), {20., mesh.h}, {static_cast<int>(20. / mesh.h), 1});
-  double      least = 2., most = 0.;
-  for (const double position : {0., .1, .2, .3, .4, .5, .66, .83})
+  const auto mesh = GENERATE(Mesh{.5, .03}, Mesh{.25, .015});
+  const auto cost = [&](double x, int length) {
+    Body<Glass> body(Units().model(), {16., 1. * length}, {static_cast<int>(16. / mesh.h), length});
+    body.crack(PreCrack<2>({Segment<2>{{x, -5.}, {x, length + 5.}}}, 1.));
+    body.solver.equilibrate_phase(body.state);
+    CHECK(std::abs(body.smallest_phase()) < .06);
+    return body.energies().fracture;
+  };
+  double least = 2., most = 0.;
+  for (const double position : {0., .1, .25, .4, .5, .7})
     {
-      const double x = 10. + position * mesh.h;
+      const double x         = 8. + position * mesh.h;
+      const double by_length = (cost(x, 12) - cost(x, 8)) / 4.;
       CAPTURE(mesh.h, position);
-      body.crack(PreCrack<2>({Segment<2>{{x, -5.}, {x, 5.}}}, 1.));
-      body.solver.equilibrate_phase(body.state);
-      const double cost = body.energies().fracture / mesh.h;
-      CHECK(cost == Approx(1.).margin(mesh.tolerance));
-      CHECK(std::abs(body.smallest_phase()) < .06);
-      least = std::min(least, cost);
-      most  = std::max(most, cost);
+      CHECK(by_length == Approx(1.).margin(mesh.tolerance));
+      least = std::min(least, by_length);
+      most  = std::max(most, by_length);
     }
   CHECK(most > least + 1e-3);
 }
@@ -48,8 +52,8 @@ TEST_CASE("A pre-crack through a strip costs its toughness wherever it lies on t
 TEST_CASE("A symmetric pre-crack has a symmetric phase, before and after it opens")
 {
   Supports supports;
-  supports.prescribe("top", Component::y, [](double t) { return .5 * t; });
-  supports.prescribe("bottom", Component::y, [](double t) { return -.5 * t; });
+  supports.prescribe("top", Component::y, [](double t) { return .25 * t; });
+  supports.prescribe("bottom", Component::y, [](double t) { return -.25 * t; });
   NewtonSettings settings = tight();
   Body<Glass>    body(Units().model(), {8., 8.}, {16, 16}, settings, supports);
   body.crack(PreCrack<2>({Segment<2>{{-3., 4.}, {4., 4.}}}, 1.));

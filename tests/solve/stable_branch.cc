@@ -78,7 +78,7 @@ TEST_CASE("The quadratic function has one state for each load, also of second or
 TEST_CASE("A load that jumps across the threshold ends on the stable branch")
 {
   const std::array<int, 2> elements = GENERATE(std::array<int, 2>{1, 1}, std::array<int, 2>{12, 1});
-  const auto               settings = GENERATE(direct(), tight());
+  const auto               settings = GENERATE(NewtonSettings(), tight());
   // The distance to the root is the tolerance over the slope of the residual there, mu - 1 = 0.2 or more.
   const double margin = 10. * settings.phase_tolerance + 1e-8;
   Body<Glass>  body(Units().model(), {.5 * elements[0], .5}, elements, settings);
@@ -99,7 +99,7 @@ TEST_CASE("A load that jumps across the threshold ends on the stable branch")
 
 TEST_CASE("Two hundred random jumps of the load never end on the false branch")
 {
-  Body<Glass>                            body(Units().model(), {4., .5}, {8, 1}, direct());
+  Body<Glass>                            body(Units().model(), {4., .5}, {8, 1});
   std::mt19937                           random(42);
   std::uniform_real_distribution<double> exponent(std::log(.02), std::log(3.));
   int                                    given_up = 0;
@@ -242,13 +242,13 @@ TEST_CASE("History keeps the damage when the load goes; without it cracks heal")
     phases[1] = body.largest_phase();
     return phases;
   };
-  Body<Glass> keeping(Units().model(), {1., 1.}, {2, 2}, direct(), supports);
+  Body<Glass> keeping(Units().model(), {1., 1.}, {2, 2}, {}, supports);
   const auto  kept = run(keeping);
   CHECK(kept[0] == Approx(stable_phase(.4)).margin(.02));
   CHECK(kept[1] == Approx(stable_phase(.4)).margin(.02));
   CHECK(kept[1] < kept[0] + 1e-3);
 
-  Body<Healing> forgetting(Units().model<Healing>(), {1., 1.}, {2, 2}, direct(), supports);
+  Body<Healing> forgetting(Units().model<Healing>(), {1., 1.}, {2, 2}, {}, supports);
   const auto    healed = run(forgetting);
   CHECK(healed[0] == Approx(1. / (1. + 4. * .4)).margin(.02));
   CHECK(healed[1] == Approx(1.).margin(1e-3));

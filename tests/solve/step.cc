@@ -50,10 +50,12 @@ auto take(SomeBody &body, double dt)
   return result;
 }
 
-/// Positions at t = 0.06 of a plate that swings through strains of several per cent, under the steps 1, 1.5, 0.5.
+/// Positions at t = 0.06 of a soft plate that swings through strains of several per cent, under the steps 1, 1.5, 0.5
+/// that resolve its highest frequency.
 std::vector<double> swung(double rho, int n_cycles)
 {
-  Body<Glass> body(unbreakable.model(), {2., 1.}, {3, 2}, tight(), held(), {}, GeneralizedAlpha(rho));
+  const Units soft{100., .2, 1e10};
+  Body<Glass> body(soft.model(), {2., 1.}, {3, 2}, tight(), held(), {}, GeneralizedAlpha(rho));
   set_velocity(body, 4.);
   body.solver.set_initial_acceleration(body.state);
   for (int c = 0; c < n_cycles; ++c)
@@ -84,7 +86,6 @@ struct Torn : Body<Glass>
   explicit Torn(const NewtonSettings &settings) : Body(Units().model(), {8., 8.}, {16, 16}, settings, pull())
   {
     crack(PreCrack<2>({Segment<2>{{-3., 4.}, {4., 4.}}}, 1.));
-    solver.equilibrate_phase(state);
   }
 };
 
@@ -96,8 +97,10 @@ TEST_CASE("Newton's iteration converges quadratically, phase and displacement to
   settings.displacement_tolerance = 1e-13;
   settings.phase_tolerance        = 1e-12;
   settings.linear.tolerance       = 1e-9;
-  Torn       body(settings);
-  const auto result = body.solver.attempt(body.state, .05);
+  Torn body(settings);
+  body.solver.equilibrate_phase(body.state);
+  const auto result = body.solver.attempt(body.state, .02);
+  CAPTURE(result.residuals);
   INFO(result.failure);
   REQUIRE(result.state);
   REQUIRE(result.newton >= 4);
@@ -107,7 +110,6 @@ TEST_CASE("Newton's iteration converges quadratically, phase and displacement to
   for (const double r : result.residuals)
     if (r > 1e2)
       logarithms.push_back(std::log(r));
-  CAPTURE(result.residuals);
   const auto n = logarithms.size();
   REQUIRE(n >= 4);
   const double last = (logarithms[n - 1] - logarithms[n - 2]) / (logarithms[n - 2] - logarithms[n - 3]);
@@ -117,7 +119,7 @@ TEST_CASE("Newton's iteration converges quadratically, phase and displacement to
 TEST_CASE("The whole solver is of second order under changing steps")
 {
   const double rho = GENERATE(0., .5);
-  const auto   a = swung(rho, 16), b = swung(rho, 32), c = swung(rho, 64);
+  const auto   a = swung(rho, 8), b = swung(rho, 16), c = swung(rho, 32);
   CAPTURE(rho, distance(a, b), distance(b, c));
   CHECK(std::log2(distance(a, b) / distance(b, c)) == Approx(2.).margin(.15));
 }
@@ -210,7 +212,8 @@ TEST_CASE("The preconditioner has no influence on the step")
     NewtonSettings settings         = tight(preconditioner);
     settings.displacement_tolerance = 1e-9;
     settings.phase_tolerance        = 1e-9;
-    Torn       body(settings);
+    Torn body(settings);
+    body.solver.equilibrate_phase(body.state);
     const auto result = take(body, .02);
     CHECK(result.switched == 0);
     return std::array<std::vector<double>, 2>{gather(body.state.position), gather(body.state.phase)};

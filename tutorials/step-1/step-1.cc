@@ -32,9 +32,9 @@ namespace step_1
 struct Parameters
 {
   int                   degree   = 2;
-  std::array<int, 2>    elements = {12, 8};
+  std::array<int, 2>    elements = {12, 10};
   int                   levels   = 4;
-  std::vector<Point<2>> curve    = {{0., 3.}, {4., 3.}, {7., 4.5}, {8.5, 6.5}};
+  std::vector<Point<2>> curve    = {{0., 4.}, {4., 4.}, {7., 5.5}, {8.5, 7.5}};
   Formula               field    = Formula("sin(0.9 * x) * cos(0.6 * y)", {"x", "y"});
 
   void declare(ParameterSection &section)

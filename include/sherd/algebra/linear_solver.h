@@ -43,6 +43,9 @@ struct LinearSolverSettings
   int            max_iterations  = 500; ///< iterations allowed without escalation (never)
   int            restart         = 100; ///< size of the Krylov space
   int            retry_interval  = 20;  ///< solves after which an escalated solver tries the cheaper one again
+  /// Incomplete factors are kept for the next matrix while it takes no more than this many iterations beyond those with
+  /// fresh factors; 0: fresh factors for each solve.
+  int reuse = 4;
 
   void declare(ParameterSection &section)
   {
@@ -59,6 +62,8 @@ struct LinearSolverSettings
                    "whether a solver that fails is replaced by a stronger one");
     section.value("iteration_limit", iteration_limit, range::at_least(1), "iterations before escalation");
     section.value("max_iterations", max_iterations, range::at_least(1), "iterations allowed without escalation");
+    section.value("reuse", reuse, range::non_negative(),
+                  "incomplete factors are kept while they cost no more than this many iterations; 0: always fresh");
     section.value("restart", restart, range::at_least(1), "size of the Krylov space");
     section.value("retry_interval", retry_interval, range::at_least(1),
                   "solves after which an escalated solver tries the cheaper one again");
@@ -86,6 +91,7 @@ struct SolveReport
 ///
 /// Several ranks: restricted additive Schwarz, each rank factors its rows and `overlap` layers of its neighbours'.
 ///
+/// Incomplete factors of one matrix serve for the next ones while they are good enough (LinearSolverSettings::reuse).
 /// An attempt is given up when it takes more than iteration_limit iterations, when the residual recomputed from the
 /// solution misses the tolerance, or when factors or iteration break down. Escalation then goes to the next level of
 /// fill, at last to MUMPS; later solves begin there, and every retry_interval solves one step lower.

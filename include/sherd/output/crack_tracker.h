@@ -79,7 +79,7 @@ private:
 
   CrackOptions                 options_;
   std::vector<SampleLattice>   lattices_;
-  std::vector<Eigen::Vector3d> body_edge_; ///< points along the edge of the body, at most l0/4 apart
+  std::vector<Eigen::Vector3d> body_edge_; ///< points along the edge of the body, a sample apart
   CrackGraph                   cracks_;
   CrackTree                    tree_;
 };
