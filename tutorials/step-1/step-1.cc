@@ -6,6 +6,7 @@
 //          mpirun -np 3 ./step-1 quick.yaml
 // Expect:  levels.csv, functions.csv, frames in the output directory; pictures by doc/figures output-demo
 // Units:   one unit of length is one element of the initial mesh
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <numeric>

@@ -11,13 +11,13 @@
 #include <sherd/base/output_directory.h>
 #include <sherd/base/parameters.h>
 #include <sherd/base/print.h>
-#include <sherd/base/progress.h>
 #include <sherd/base/stop_request.h>
 #include <sherd/fracture/crack_density/fourth_order.h>
 #include <sherd/fracture/degradation/cubic.h>
 #include <sherd/geometry/shapes.h>
 #include <sherd/material/split/surface_stretch.h>
 #include <sherd/output/run_recorder.h>
+#include <sherd/solve/instances.h>
 #include <sherd/time/generalized_alpha.h>
 
 using namespace sherd;

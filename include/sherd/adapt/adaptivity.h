@@ -28,7 +28,10 @@ public:
   Adaptivity(const SurfaceType &surface, const RefinementSettings &settings);
 
   /// Refines around the pre-cracks until the mesh resolves them, evaluates their initial history and the start value
-  /// of the phase on the refined mesh, and solves for the initial phase. Collective.
+  /// of the phase on the refined mesh, and solves for the initial phase. @p state starts anew at rest. Collective.
+  ///
+  /// @throws InvalidParameter   a pre-crack that no quadrature point feels
+  /// @throws NoConvergence      no initial phase found
   template <class Solver>
   void prepare(Solver &solver, SurfaceType &surface, SpaceType &space, StateType &state,
                const PreCrack<spacedim> &pre_crack);

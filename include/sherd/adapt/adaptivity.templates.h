@@ -33,8 +33,14 @@ void Adaptivity<Model>::prepare(Solver                   &solver,
         std::vector<int> marked;
         const auto       X = surface.control_points();
         for (const int point : coarse_points(surface, target_))
-          if (pre_crack.phase(Point<spacedim>(X.row(point).transpose()), model.crack_density) < settings_.phase)
-            marked.push_back(point);
+          {
+            const Point<spacedim> position = X.row(point).transpose();
+            const auto [p, i]              = surface.locate_point(point);
+            // Functions so coarse that the crack may run between their control points are marked as well.
+            if (pre_crack.phase(position, model.crack_density) < settings_.phase ||
+                pre_crack.distance(position) <= settings_.target * reach(surface.patch(p).basis.function(i), target_))
+              marked.push_back(point);
+          }
         if (marked.empty())
           break;
         surface.refine(marked, target_);
@@ -48,12 +54,20 @@ void Adaptivity<Model>::prepare(Solver                   &solver,
   for (int a = 0; a < state.distribution->n_local(); ++a)
     state.phase.local()[a] =
       pre_crack.phase(Point<spacedim>(X.row(state.distribution->global(a)).transpose()), model.crack_density);
+  int n_cracked = 0;
   for (int e = 0; e < space.n_active_elements(); ++e)
     for (int q = 0; q < state.n_q; ++q)
       {
         const auto position = solver.assembler().quadrature_position(e, q);
         state.history[e][q] = pre_crack.history(position, model.degradation, model.toughness(position));
+        n_cracked += pre_crack.contains(position);
       }
+  MPI_Allreduce(MPI_IN_PLACE, &n_cracked, 1, MPI_INT, MPI_SUM, space.environment().comm());
+  if (n_cracked == 0 && !pre_crack.cracks().empty())
+    throw InvalidParameter("pre-crack: no quadrature point lies within " + print(pre_crack.half_width) +
+                           " l0 of it, so that it would have no effect; check its position, and that "
+                           "refinement.target = " +
+                           print(settings_.target) + " is at most l0/2 = " + print(.5 * model.length_scale));
   solver.equilibrate_phase(state);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <sherd/base/all_gather.h>
@@ -63,6 +64,18 @@ bool is_coarse(const LRFunction<degree> &function, const SpanTarget &target)
       if (function.knots[d][k + 1] - function.knots[d][k] > target.length[d] * (1. + 1e-10))
         return true;
   return false;
+}
+
+/// Half the diagonal of the largest knot span of the function in units of the target length, from above: about the
+/// distance between a point of the surface and the nearest control point of functions this coarse.
+template <int degree>
+double reach(const LRFunction<degree> &function, const SpanTarget &target)
+{
+  double span[2] = {0., 0.};
+  for (int d = 0; d < 2; ++d)
+    for (int k = 0; k <= degree; ++k)
+      span[d] = std::max(span[d], (function.knots[d][k + 1] - function.knots[d][k]) / target.length[d]);
+  return .5 * std::hypot(span[0], span[1]) * (1. + 1e-9);
 }
 
 /// Control points of the surface whose function is coarse, ascending.

@@ -41,7 +41,7 @@ struct ElementMatrix
 namespace internal
 {
 /// Four doubles that the compiler keeps in one register.
-typedef double Pack __attribute__((vector_size(32), aligned(8)));
+typedef double Pack __attribute__((vector_size(32), aligned(8), may_alias));
 
 template <int rows_of_c, int n_packs>
 inline void
@@ -84,8 +84,9 @@ add_transposed_product(int rows, const double *A, int stride_a, const double *B,
   int           i     = 0;
   for (; i + block <= M; i += block)
     internal::add_rows<block, N / 4>(rows, A + i, stride_a, B, stride_b, C + i * stride_c, stride_c);
-  for (; i < M; ++i)
-    internal::add_rows<1, N / 4>(rows, A + i, stride_a, B, stride_b, C + i * stride_c, stride_c);
+  if constexpr (M % block != 0)
+    for (; i < M; ++i)
+      internal::add_rows<1, N / 4>(rows, A + i, stride_a, B, stride_b, C + i * stride_c, stride_c);
 }
 
 } // namespace sherd

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <sherd/fracture/crack_density/fourth_order.h>
+#include <sherd/fracture/degradation/cubic.h>
+#include <sherd/material/split/none.h>
+#include <sherd/material/split/surface_stretch.h>
+#include <sherd/solve/monolithic_solver.h>
+#include <sherd/time/generalized_alpha.h>
+#include <sherd/time/newmark.h>
+
+/// Models that the library ships compiled. A program that includes this header and uses one of them compiles in
+/// seconds; any other model compiles from the headers.
+namespace sherd
+{
+
+namespace models
+{
+/// Plate in the plane: neo-Hooke, surface-stretch split, cubic degradation, fourth-order density, degree 2 (the paper's).
+using Plate =
+  BrittleShell<2, 2, split::SurfaceStretch<material::NeoHooke>, degradation::Cubic, crack_density::FourthOrder>;
+
+/// The same without a split: compression cracks as tension does.
+using UnsplitPlate =
+  BrittleShell<2, 2, split::None<material::NeoHooke>, degradation::Cubic, crack_density::FourthOrder>;
+} // namespace models
+
+extern template class Assembler<models::Plate>;
+extern template class MonolithicSolver<models::Plate, GeneralizedAlpha>;
+extern template class MonolithicSolver<models::Plate, Newmark>;
+
+extern template class Assembler<models::UnsplitPlate>;
+extern template class MonolithicSolver<models::UnsplitPlate, GeneralizedAlpha>;
+extern template class MonolithicSolver<models::UnsplitPlate, Newmark>;
+
+} // namespace sherd

@@ -1,0 +1,10 @@
+#include <sherd/solve/instances.h>
+
+namespace sherd
+{
+
+template class Assembler<models::UnsplitPlate>;
+template class MonolithicSolver<models::UnsplitPlate, GeneralizedAlpha>;
+template class MonolithicSolver<models::UnsplitPlate, Newmark>;
+
+} // namespace sherd

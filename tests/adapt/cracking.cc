@@ -1,0 +1,216 @@
+// label: verification
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+
+#include "cracking_plate.h"
+
+using namespace sherd;
+using namespace sherd::test;
+
+namespace
+{
+
+/// Everything a state consists of, to the bit.
+std::vector<double> bits(const State<2, 2> &state, int n_elements)
+{
+  std::vector<double> all;
+  for (const Vector *v : {&state.position, &state.velocity, &state.acceleration, &state.phase, &state.previous_phase})
+    all.insert(all.end(), v->local().begin(), v->local().end());
+  for (int e = 0; e < n_elements; ++e)
+    all.insert(all.end(), state.history[e], state.history[e] + state.n_q);
+  for (const double value : {state.time, state.step_size, 1. * state.step})
+    all.push_back(value);
+  return all;
+}
+
+/// Largest x of the quadrature points on the line of the crack where the phase is below 0.1.
+double tip(const CrackingPlate &body)
+{
+  double x = 0.;
+  for (int a = 0; a < body.state.distribution->n_local(); ++a)
+    {
+      const Point<2> X = body.plate.control_points().row(body.state.distribution->global(a)).transpose();
+      if (body.state.phase.local()[a] < .1 && std::abs(X[1] - 4.) < .6)
+        x = std::max(x, X[0]);
+    }
+  return x;
+}
+
+} // namespace
+
+TEST_CASE("Refinement refuses settings without meaning")
+{
+  const auto   plate = shapes::plate<2, 2>({4., 4.}, {2, 2});
+  const double nan   = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS(Adaptivity<Glass>(plate, {}), InvalidParameter);
+  CHECK_THROWS_AS(Adaptivity<Glass>(plate, {.target = -1.}), InvalidParameter);
+  CHECK_THROWS_AS(Adaptivity<Glass>(plate, {.target = nan}), InvalidParameter);
+  CHECK_THROWS_AS(Adaptivity<Glass>(plate, {.target = 1., .halo = -1.}), InvalidParameter);
+  CHECK_THROWS_AS(Adaptivity<Glass>(plate, {.target = 1., .halo = nan}), InvalidParameter);
+}
+
+TEST_CASE("Preparation refines to the target around the pre-crack and nowhere else")
+{
+  CrackingPlate body(MPI_COMM_WORLD, {.target = .5});
+  body.prepare();
+  const auto distance = [](const Point<2> &X) { return CrackingPlate::notch().distance(X); };
+  CHECK(body.largest_edge([&](const Point<2> &X) { return distance(X) < 5.; }) == Approx(.5));
+  // phi = 0.975 lies 5.6 l0 from the crack; functions there reach three coarse elements of 2 l0 further at most.
+  CHECK(body.largest_edge([&](const Point<2> &X) { return distance(X) > 5.6 + 6.; }) == Approx(2.));
+  CHECK(body.solver.assembler().shortest_edge() == Approx(.5));
+
+  // History afresh from the polyline, nothing transferred.
+  int n_inside = 0;
+  for (int e = 0; e < body.space.n_active_elements(); ++e)
+    for (int q = 0; q < body.state.n_q; ++q)
+      {
+        const auto   X = body.solver.assembler().quadrature_position(e, q);
+        const double H = CrackingPlate::notch().history(X, body.model.degradation, 1.);
+        CHECK(body.state.history[e][q] == H);
+        n_inside += H > 0.;
+      }
+  CHECK(n_inside > 50);
+  CHECK(body.state.step == 0);
+  CHECK(body.state.time == 0.);
+  // Three l0 of crack and its tip; the end at the free edge costs less.
+  CHECK(body.energies().fracture == Approx(3.5).margin(1.));
+}
+
+TEST_CASE("Without a pre-crack preparation changes nothing")
+{
+  CrackingPlate body(MPI_COMM_WORLD, {.target = .5});
+  body.prepare(PreCrack<2>({}, 1.));
+  CHECK(body.plate.n_elements() == 32);
+  CHECK(body.energies().fracture == 0.);
+}
+
+TEST_CASE("A pre-crack between the control points of a very coarse mesh is found")
+{
+  // Elements of 16 l0: no control point is close enough to feel a crack on the edge between two of them.
+  auto                                      plate = shapes::plate<2, 2>({64., 64.}, {4, 4});
+  const Glass                               model = CrackingPlate::glass();
+  ShellSpace<2, 2>                          space(Environment(MPI_COMM_WORLD), plate);
+  Supports                                  supports;
+  Loads<2>                                  loads;
+  State<2, 2>                               state(space);
+  Adaptivity<Glass>                         adaptivity(plate, {.target = .5});
+  MonolithicSolver<Glass, GeneralizedAlpha> solver(model, space, supports, loads, GeneralizedAlpha(.5), {});
+  adaptivity.prepare(solver, plate, space, state, PreCrack<2>({Segment<2>{{31.5, 32.}, {32.5, 32.}}}, 1.));
+  CHECK(solver.assembler().shortest_edge() == Approx(.5));
+  CHECK(solver.energies(state, state.phase).fracture > 1.);
+  CHECK(plate.n_elements() < 3000);
+}
+
+TEST_CASE("A pre-crack that no quadrature point feels is an error")
+{
+  CrackingPlate coarse(MPI_COMM_WORLD, {.target = 4.});
+  CHECK_THROWS_AS(coarse.prepare(PreCrack<2>({Segment<2>{{0., 4.}, {3., 4.}}}, 1.)), InvalidParameter);
+  CrackingPlate outside(MPI_COMM_WORLD, {.target = .5});
+  CHECK_THROWS_AS(outside.prepare(PreCrack<2>({Segment<2>{{0., 40.}, {3., 40.}}}, 1.)), InvalidParameter);
+}
+
+TEST_CASE("Refinement at a frozen displacement keeps the fracture energy")
+{
+  // Once for a mesh that has just what the crack needs, once with everything refined.
+  CrackingPlate body(MPI_COMM_WORLD, {.target = .5});
+  body.prepare();
+  const auto before = body.energies();
+  auto       global = gather(body.state, body.space);
+  const auto target = span_target(body.plate, .5);
+  for (auto marked = coarse_points(body.plate, target); !marked.empty(); marked = coarse_points(body.plate, target))
+    {
+      const auto boxes = element_boxes(body.plate);
+      global           = transfer(global, boxes, body.plate.refine(marked, target), body.plate);
+    }
+  body.space.rebuild();
+  body.state = distribute(global, body.space);
+  body.solver.rebuild(body.state);
+  CHECK(body.plate.n_elements() == 16 * 2 * 8 * 2);
+  // The same functions have the same energy, to rounding.
+  CHECK(body.energies().fracture == Approx(before.fracture).epsilon(1e-9));
+  body.solver.equilibrate_phase(body.state);
+  CHECK(body.energies().fracture == Approx(before.fracture).epsilon(5e-3));
+}
+
+TEST_CASE("A crack grows, the mesh follows, and the books balance")
+{
+  CrackingPlate body(MPI_COMM_WORLD, {.target = .5, .halo = 1.}, .25);
+  body.prepare();
+  EnergyBalance books(body.energies());
+  const double  start    = tip(body);
+  const int     elements = body.plate.n_elements();
+  int           refined = 0, repeated = 0, n = 0;
+  double        previous = body.state.time;
+  while (body.state.time < .35)
+    {
+      const auto s = body.advance(.35);
+      books.add(s);
+      refined += s.refined;
+      repeated += s.repeated;
+      CHECK(body.state.time == Approx(previous + s.dt));
+      CHECK(s.attempts == 1 + s.rejected + s.repeated);
+      CHECK(s.dt <= body.controller.largest());
+      previous = body.state.time;
+      ++n;
+      WARN(n << " t " << body.state.time << " dt " << s.dt << " it " << s.newton << " rej " << s.rejected << " rep "
+             << s.repeated << " ref " << s.refined << " sw " << s.switched << " el " << body.plate.n_elements()
+             << " tip " << tip(body) << " frac " << s.energies.fracture << " bal " << books.balance() << " maxphi "
+             << s.largest_phase - 1.);
+    }
+  CHECK(body.state.time == .35);
+  CHECK(body.state.step == n);
+  CHECK(tip(body) > start + 2.);
+  CHECK(refined > 0);
+  CHECK(body.plate.n_elements() > elements);
+  CHECK(std::abs(books.balance()) < .02);
+  // Along the whole way the crack has met fine elements only.
+  CHECK(body.largest_edge([&](const Point<2> &X) { return std::abs(X[1] - 4.) < 1. && X[0] < tip(body); }) ==
+        Approx(.5));
+}
+
+TEST_CASE("A step that ran into coarse elements is repeated on fine ones")
+{
+  // Triggers so late that the crack is there before the mesh.
+  CrackingPlate body(MPI_COMM_WORLD,
+                     {.target = .5, .phase = .5, .halo = 1., .recompute_phase = .9, .history_fraction = 50.}, .25);
+  body.prepare();
+  int repeated = 0;
+  while (body.state.time < .35 && repeated == 0)
+    {
+      const auto   before = bits(body.state, body.space.n_active_elements());
+      const int    step   = body.state.step;
+      const double time   = body.state.time;
+      const auto   s      = body.advance(.35);
+      repeated            = s.repeated;
+      CHECK(body.state.step == step + 1);
+      CHECK(body.state.time == Approx(time + s.dt));
+      if (repeated > 0)
+        {
+          CHECK(s.refined >= s.repeated);
+          CHECK(s.attempts == 1 + s.rejected + s.repeated);
+        }
+    }
+  CHECK(repeated > 0);
+}
+
+TEST_CASE("A step that cannot converge leaves the state as it was")
+{
+  CrackingPlate body(MPI_COMM_WORLD, {.target = .5}, .25);
+  body.prepare();
+  body.advance(1.);
+  NewtonSettings settings;
+  settings.max_iterations         = 1;
+  settings.displacement_tolerance = 1e-14;
+  settings.phase_tolerance        = 1e-14;
+  MonolithicSolver<Glass, GeneralizedAlpha> hopeless(body.model, body.space, body.supports, body.loads,
+                                                     GeneralizedAlpha(.5), settings);
+  hopeless.rebuild(body.state);
+  const auto before = bits(body.state, body.space.n_active_elements());
+  CHECK_FALSE(hopeless.attempt(body.state, 1e-3).state);
+  CHECK(bits(body.state, body.space.n_active_elements()) == before);
+  CHECK_THROWS_AS(body.adaptivity.advance(hopeless, body.plate, body.space, body.state, body.controller, 1.),
+                  NoConvergence);
+  CHECK(bits(body.state, body.space.n_active_elements()) == before);
+}
