@@ -25,14 +25,14 @@ std::vector<double> bits(const State<2, 2> &state, int n_elements)
   return all;
 }
 
-/// Largest x of the quadrature points on the line of the crack where the phase is below 0.1.
+/// Largest x of a control value below 0.1 near the line of the crack.
 double tip(const CrackingPlate &body)
 {
   double x = 0.;
   for (int a = 0; a < body.state.distribution->n_local(); ++a)
     {
       const Point<2> X = body.plate.control_points().row(body.state.distribution->global(a)).transpose();
-      if (body.state.phase.local()[a] < .1 && std::abs(X[1] - 4.) < .6)
+      if (body.state.phase.local()[a] < .1 && std::abs(X[1] - 12.) < .6)
         x = std::max(x, X[0]);
     }
   return x;
@@ -74,16 +74,18 @@ TEST_CASE("Preparation refines to the target around the pre-crack and nowhere el
   CHECK(n_inside > 50);
   CHECK(body.state.step == 0);
   CHECK(body.state.time == 0.);
-  // Three l0 of crack and its tip; the end at the free edge costs less.
-  CHECK(body.energies().fracture == Approx(3.5).margin(1.));
+  // Three l0 of crack, and the cap around its tip.
+  CHECK(body.energies().fracture > 3.);
+  CHECK(body.energies().fracture < 5.);
 }
 
 TEST_CASE("Without a pre-crack preparation changes nothing")
 {
   CrackingPlate body(MPI_COMM_WORLD, {.target = .5});
   body.prepare(PreCrack<2>({}, 1.));
-  CHECK(body.plate.n_elements() == 32);
-  CHECK(body.energies().fracture == 0.);
+  CHECK(body.plate.n_elements() == 60);
+  CHECK(body.energies().fracture == Approx(0.).margin(1e-20));
+  CHECK(body.state.phase.local()[7] == 1.);
 }
 
 TEST_CASE("A pre-crack between the control points of a very coarse mesh is found")
@@ -105,10 +107,11 @@ TEST_CASE("A pre-crack between the control points of a very coarse mesh is found
 
 TEST_CASE("A pre-crack that no quadrature point feels is an error")
 {
+  // Elements of 2 l0 with Gauss points at y = 12.225 and 13.
   CrackingPlate coarse(MPI_COMM_WORLD, {.target = 4.});
-  CHECK_THROWS_AS(coarse.prepare(PreCrack<2>({Segment<2>{{0., 4.}, {3., 4.}}}, 1.)), InvalidParameter);
+  CHECK_THROWS_AS(coarse.prepare(PreCrack<2>({Segment<2>{{0., 12.5}, {3., 12.5}}}, 1.)), InvalidParameter);
   CrackingPlate outside(MPI_COMM_WORLD, {.target = .5});
-  CHECK_THROWS_AS(outside.prepare(PreCrack<2>({Segment<2>{{0., 40.}, {3., 40.}}}, 1.)), InvalidParameter);
+  CHECK_THROWS_AS(outside.prepare(PreCrack<2>({Segment<2>{{0., 60.}, {3., 60.}}}, 1.)), InvalidParameter);
 }
 
 TEST_CASE("Refinement at a frozen displacement keeps the fracture energy")
@@ -127,7 +130,7 @@ TEST_CASE("Refinement at a frozen displacement keeps the fracture energy")
   body.space.rebuild();
   body.state = distribute(global, body.space);
   body.solver.rebuild(body.state);
-  CHECK(body.plate.n_elements() == 16 * 2 * 8 * 2);
+  CHECK(body.plate.n_elements() == 20 * 48);
   // The same functions have the same energy, to rounding.
   CHECK(body.energies().fracture == Approx(before.fracture).epsilon(1e-9));
   body.solver.equilibrate_phase(body.state);
@@ -136,37 +139,36 @@ TEST_CASE("Refinement at a frozen displacement keeps the fracture energy")
 
 TEST_CASE("A crack grows, the mesh follows, and the books balance")
 {
-  CrackingPlate body(MPI_COMM_WORLD, {.target = .5, .halo = 1.}, .25);
+  CrackingPlate body(MPI_COMM_WORLD, {.target = .5, .halo = 1.});
   body.prepare();
   EnergyBalance books(body.energies());
   const double  start    = tip(body);
   const int     elements = body.plate.n_elements();
   int           refined = 0, repeated = 0, n = 0;
   double        previous = body.state.time;
-  while (body.state.time < .35)
+  while (body.state.time < .3)
     {
-      const auto s = body.advance(.35);
+      const auto s = body.advance(.3);
       books.add(s);
       refined += s.refined;
       repeated += s.repeated;
       CHECK(body.state.time == Approx(previous + s.dt));
       CHECK(s.attempts == 1 + s.rejected + s.repeated);
-      CHECK(s.dt <= body.controller.largest());
+      CHECK(s.dt <= body.controller.largest() * (1. + 1e-12));
       previous = body.state.time;
       ++n;
-      WARN(n << " t " << body.state.time << " dt " << s.dt << " it " << s.newton << " rej " << s.rejected << " rep "
-             << s.repeated << " ref " << s.refined << " sw " << s.switched << " el " << body.plate.n_elements()
-             << " tip " << tip(body) << " frac " << s.energies.fracture << " bal " << books.balance() << " maxphi "
-             << s.largest_phase - 1.);
+      // paper Eq. (13); the last two steps are cut to end in time.
+      if (s.refined > 0 && body.state.time < .25)
+        CHECK(body.controller.step() == Approx(.2 * s.dt));
     }
-  CHECK(body.state.time == .35);
+  CHECK(body.state.time == .3);
   CHECK(body.state.step == n);
   CHECK(tip(body) > start + 2.);
   CHECK(refined > 0);
   CHECK(body.plate.n_elements() > elements);
   CHECK(std::abs(books.balance()) < .02);
   // Along the whole way the crack has met fine elements only.
-  CHECK(body.largest_edge([&](const Point<2> &X) { return std::abs(X[1] - 4.) < 1. && X[0] < tip(body); }) ==
+  CHECK(body.largest_edge([&](const Point<2> &X) { return std::abs(X[1] - 12.) < 1. && X[0] < tip(body); }) ==
         Approx(.5));
 }
 
@@ -174,15 +176,15 @@ TEST_CASE("A step that ran into coarse elements is repeated on fine ones")
 {
   // Triggers so late that the crack is there before the mesh.
   CrackingPlate body(MPI_COMM_WORLD,
-                     {.target = .5, .phase = .5, .halo = 1., .recompute_phase = .9, .history_fraction = 50.}, .25);
+                     {.target = .5, .phase = .5, .halo = 1., .recompute_phase = .9, .history_fraction = 50.});
   body.prepare();
   int repeated = 0;
-  while (body.state.time < .35 && repeated == 0)
+  while (body.state.time < .3 && repeated == 0)
     {
       const auto   before = bits(body.state, body.space.n_active_elements());
       const int    step   = body.state.step;
       const double time   = body.state.time;
-      const auto   s      = body.advance(.35);
+      const auto   s      = body.advance(.3);
       repeated            = s.repeated;
       CHECK(body.state.step == step + 1);
       CHECK(body.state.time == Approx(time + s.dt));
@@ -197,7 +199,7 @@ TEST_CASE("A step that ran into coarse elements is repeated on fine ones")
 
 TEST_CASE("A step that cannot converge leaves the state as it was")
 {
-  CrackingPlate body(MPI_COMM_WORLD, {.target = .5}, .25);
+  CrackingPlate body(MPI_COMM_WORLD, {.target = .5});
   body.prepare();
   body.advance(1.);
   NewtonSettings settings;

@@ -21,12 +21,12 @@ Run run(MPI_Comm comm)
 {
   NewtonSettings settings;
   settings.linear.tolerance = 1e-12;
-  CrackingPlate body(comm, {.target = .5, .halo = 1.}, .25, settings);
+  CrackingPlate body(comm, {.target = .5, .halo = 1.}, .15, settings);
   body.prepare();
   Run result;
-  while (body.state.time < .25)
+  while (body.state.time < .2)
     {
-      const auto s = body.advance(.25);
+      const auto s = body.advance(.2);
       result.dt.push_back(s.dt);
       result.fracture.push_back(s.energies.fracture);
       result.elastic.push_back(s.energies.elastic());

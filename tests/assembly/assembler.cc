@@ -187,10 +187,7 @@ TEST_CASE("The history after a step is the larger of old and new")
   CHECK(n_new > 0);
 
   // Unloading changes nothing any more.
-  for (auto *v : {&body.state.position})
-    for (int a = 0; a < body.state.distribution->n_local(); ++a)
-      for (int d = 0; d < 2; ++d)
-        v->local()[2 * a + d] = body.surface.control_points()(body.state.distribution->global(a), d);
+  body.state.position = State<2, 2>(body.space).position;
   const auto unloaded = body.assembler.committed(body.level(), committed);
   for (int e = 0; e < body.space.n_active_elements(); ++e)
     for (int q = 0; q < 9; ++q)

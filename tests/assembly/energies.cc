@@ -1,5 +1,5 @@
 // label: verification
-// ranks: 1 2 3
+// ranks: 1 3
 #include <catch2/catch.hpp>
 
 #include <assembly/body.h>
@@ -106,7 +106,6 @@ TEST_CASE("Refinement leaves energies and forces unchanged where quadrature is e
   state.phase.setConstant(.8);
   RefinedPair uniform(surface, state);
   CHECK(uniform.fine.energies().active == Approx(uniform.coarse.energies().active).epsilon(1e-13));
-  CHECK(uniform.fine.energies().withheld != 0.);
 
   // The virtual work of a displacement of the coarse mesh is the same: its coarse control forces are T^T f.
   auto             refined = surface;

@@ -44,9 +44,14 @@ Surface<degree, 2> sample_surface(Shape shape)
 {
   if (shape == Shape::rational)
     {
+      // A quarter of an annulus, then weights that vary in both directions.
       auto annulus = quarter_annulus<degree, 2>(1., 3.);
       refine_everywhere(annulus, 1);
-      return annulus;
+      auto         patch = annulus.patch(0);
+      std::mt19937 random(23);
+      for (auto &weight : patch.weights)
+        weight *= 1. + .2 * symmetric(random);
+      return {{std::move(patch)}, annulus.edges()};
     }
   auto plate = distorted(shapes::plate<degree, 2>({4., 4.}, {4, 4}), .15);
   if (shape == Shape::overloaded)

@@ -227,7 +227,8 @@ TEST_CASE("History keeps the damage when the load goes; without it cracks heal")
   supports.prescribe("top", Component::y, pulse);
 
   // Returns the phase at the peak and at the end.
-  const auto run = [&](auto &body) {
+  int        switched = 0;
+  const auto run      = [&](auto &body) {
     std::array<double, 2> phases{};
     const int             n = 20;
     for (int i = 0; i < 2 * n; ++i)
@@ -236,6 +237,7 @@ TEST_CASE("History keeps the damage when the load goes; without it cracks heal")
         INFO(result.failure);
         REQUIRE(result.state);
         body.state = *result.state;
+        switched += result.switched;
         if (i == n - 1)
           phases[0] = body.smallest_phase();
       }
@@ -247,6 +249,8 @@ TEST_CASE("History keeps the damage when the load goes; without it cracks heal")
   CHECK(kept[0] == Approx(stable_phase(.4)).margin(.02));
   CHECK(kept[1] == Approx(stable_phase(.4)).margin(.02));
   CHECK(kept[1] < kept[0] + 1e-3);
+  // The load crosses the threshold in one step: without a switch of the branch it would not have been accepted.
+  CHECK(switched >= 1);
 
   Body<Healing> forgetting(Units().model<Healing>(), {1., 1.}, {2, 2}, {}, supports);
   const auto    healed = run(forgetting);

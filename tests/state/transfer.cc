@@ -86,7 +86,7 @@ TEST_CASE("Each new quadrature point takes the history of a nearest one of its p
   test::refine_at_random(surface, 1, 2, 6);
   const auto old   = random_state(surface, 4);
   const auto boxes = element_boxes(surface);
-  // Spans are halved in one step or, where lines of two functions meet, divided unevenly.
+  // Elements of two sizes come apart.
   const auto refined  = surface.refine({5, 17, 30}, {{.25, .25}});
   const auto now      = transfer(old, boxes, refined, surface);
   const auto children = element_boxes(surface);

@@ -2,7 +2,6 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <complex>
 #include <limits>
 
 #include <Eigen/Dense>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <sherd/adapt/adaptivity.h>
+#include <sherd/base/print.h>
 
 namespace sherd
 {

@@ -384,11 +384,19 @@ auto MonolithicSolver<Model, Integrator>::reaction(const std::string &edge) cons
 {
   Point<spacedim> sum = Point<spacedim>::Zero();
   if (total_force_)
-    for (const auto &side : space_->surface().edge(edge))
-      for (const int point : points_along(space_->surface(), side))
+    {
+      // Sides of one name may meet in a corner, which counts once.
+      std::vector<int> points;
+      for (const auto &side : space_->surface().edge(edge))
+        for (const int point : points_along(space_->surface(), side))
+          points.push_back(point);
+      std::sort(points.begin(), points.end());
+      points.erase(std::unique(points.begin(), points.end()), points.end());
+      for (const int point : points)
         if (const int a = space_->distribution().local[point]; a >= 0 && a < assembler_->distribution()->n_owned())
           for (int c = 0; c < spacedim; ++c)
             sum[c] += total_force_->local()[a * n_fields + c];
+    }
   MPI_Allreduce(MPI_IN_PLACE, sum.data(), spacedim, MPI_DOUBLE, MPI_SUM, assembler_->distribution()->comm());
   return sum;
 }
