@@ -22,10 +22,10 @@ const std::vector<Option> &options()
   static const std::vector<Option> all{
       {"--set", "section.key=value", "use this value instead of that of the case file; may be repeated"},
       {"--output", "DIR", "write results into DIR (default: output)"},
-      {"--restart", "FILE", "go on from this checkpoint"},
+      {"--restart", "FILE", "go on from this checkpoint (programs that write one)"},
       {"--overwrite", "", "remove earlier results in DIR first"},
       {"--check", "", "validate the input, do not run"},
-      {"--max-wall", "MINUTES", "stop with a checkpoint (exit status 4) after that many minutes"},
+      {"--max-wall", "MINUTES", "stop (exit status 4) after that many minutes"},
       {"--help", "", "print this text and the parameters of the program"}};
   return all;
 }
@@ -134,7 +134,7 @@ std::string usage(const std::string &program)
       list += "  " + form + std::string(25 - form.size(), ' ') + option.meaning + "\n";
     }
   return synopsis + "\n\n" + list +
-         "\nexit status: 0 done, 2 bad input, 3 not converged, 4 stopped early with a checkpoint\n";
+         "\nexit status: 0 done, 2 bad input, 3 not converged, 4 stopped early\n";
 }
 
 } // namespace sherd

@@ -97,4 +97,11 @@ std::vector<fs::path> find_results(const fs::path &directory)
   return results;
 }
 
+void refuse_restart(const Environment &env)
+{
+  if (env.command_line().restart)
+    throw InvalidParameter("--restart " + *env.command_line().restart +
+                           ": this program writes no checkpoints; run it from the start with --output DIR");
+}
+
 } // namespace sherd

@@ -187,6 +187,7 @@ void write_functions(Files &files, const Surface<degree, 2> &surface)
 template <int degree>
 void refine_along_curve(const Environment &env, const Parameters &prm)
 {
+  refuse_restart(env);
   OutputDirectory directory(env);
   const auto      curve = points_of(Polyline<2>(prm.curve), std::ldexp(.25, -prm.levels));
 

@@ -106,6 +106,7 @@ using Glass =
 
 void break_plate(const Environment &env, const step_7::Parameters &prm)
 {
+  refuse_restart(env);
   OutputDirectory directory(env);
 
   // Plane strain: a slice of unit thickness behaves like a membrane with K = lambda + mu and G = mu (theory B.3).

@@ -159,9 +159,12 @@ void Assembler<Model>::scatter_matrix(int                         active,
   const auto    positions = scatter_.positions(active);
   double *const values    = matrix.values().data();
 
-  // The usual element of degree 2 has 9 to 12 functions; wider ones take the general path.
+  // Degree 2 has 9 to 12 functions on the usual element, degree 3 16 to 24.
   constexpr int      widest = internal::max_element_points;
-  const int          width  = n <= 12 ? 12 : widest;
+  const int          width  = n <= 12 ? 12 : n <= 24 ? 24 : widest;
+  const auto         block_of = width == 12   ? internal::extract_block<n_b, 12>
+                                : width == 24 ? internal::extract_block<n_b, 24>
+                                              : internal::extract_block<n_b, widest>;
   alignas(64) double Et[n_b * widest] = {};
   alignas(64) double block[widest * widest];
   for (int i = 0; i < n; ++i)
@@ -171,11 +174,7 @@ void Assembler<Model>::scatter_matrix(int                         active,
   for (int c = 0; c < n_fields; ++c)
     for (int d = 0; d < n_fields; ++d)
       {
-        const double *K = k.value[c * n_b] + d * n_b;
-        if (width == 12)
-          internal::extract_block<n_b, 12>(n, Et, K, k.stride, block);
-        else
-          internal::extract_block<n_b, widest>(n, Et, K, k.stride, block);
+        block_of(n, Et, k.value[c * n_b] + d * n_b, k.stride, block);
         for (int i = 0; i < n; ++i)
           if (points[i] >= range.begin && points[i] < range.end)
             {

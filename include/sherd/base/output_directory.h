@@ -35,6 +35,9 @@ private:
   std::filesystem::path path_;
 };
 
+/// For programs that write no checkpoint. @throws InvalidParameter  if --restart was given, on every rank
+void refuse_restart(const Environment &env);
+
 /// Names of the files a run may write into its folder, beside the frames.
 const std::vector<std::string> &result_files();
 
