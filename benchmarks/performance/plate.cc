@@ -12,7 +12,7 @@
 
 using namespace sherd;
 using Glass =
-  BrittleShell<2, 2, split::SurfaceStretch<material::NeoHooke>, degradation::Cubic, crack_density::FourthOrder>;
+    BrittleShell<2, 2, split::SurfaceStretch<material::NeoHooke>, degradation::Cubic, crack_density::FourthOrder>;
 
 namespace
 {
@@ -21,10 +21,14 @@ namespace
 struct Plate
 {
   explicit Plate(const Environment &env, int n)
-      : l0(.2 / n), surface(shapes::plate<2, 2>({.1, .05}, {n, n / 2})), space(env, surface),
+      : l0(.2 / n),
+        surface(shapes::plate<2, 2>({.1, .05}, {n, n / 2})),
+        space(env, surface),
         glass(split::SurfaceStretch<material::NeoHooke>(material::NeoHooke(material::plane_strain_moduli(32e9, .2))),
               degradation::Cubic(), {}, 3., l0, 2450.),
-        state(space), assembler(glass, space, state.distribution), matrix(assembler.make_matrix()),
+        state(space),
+        assembler(glass, space, state.distribution),
+        matrix(assembler.make_matrix()),
         force(state.distribution, 3)
   {
     const PreCrack<2> notch({Segment<2>{{0., .025}, {.05, .025}}}, l0);
@@ -47,7 +51,7 @@ struct Plate
 
   void linearise()
   {
-    const double dt = 2. * l0 / (.6 * 2125.);
+    const double dt    = 2. * l0 / (.6 * 2125.);
     const Stage  stage = GeneralizedAlpha(.5).stage(dt, dt);
     Vector       residual(state.distribution, 3);
     assembler.linearise({state.position, state.acceleration, state.phase}, state.history, stage.mass_weight(),
@@ -98,10 +102,10 @@ void force_kernel(benchmark::State &run)
   Plate  plate(world(), static_cast<int>(run.range(0)));
   Vector force(plate.state.distribution, 3);
   for (auto _ : run)
-    plate.assembler.force({plate.state.position, plate.state.acceleration, plate.state.phase}, plate.state.history, force);
-  run.counters["us_per_element"] =
-    benchmark::Counter(plate.surface.n_elements() * 1e-6, benchmark::Counter::kIsIterationInvariantRate |
-                                                            benchmark::Counter::kInvert);
+    plate.assembler.force({plate.state.position, plate.state.acceleration, plate.state.phase}, plate.state.history,
+                          force);
+  run.counters["us_per_element"] = benchmark::Counter(
+      plate.surface.n_elements() * 1e-6, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(force_kernel)->Arg(200)->Unit(benchmark::kMillisecond);
 
@@ -111,9 +115,8 @@ void assembly(benchmark::State &run)
   Plate plate(world(), static_cast<int>(run.range(0)));
   for (auto _ : run)
     plate.linearise();
-  run.counters["us_per_element"] =
-    benchmark::Counter(plate.surface.n_elements() * 1e-6, benchmark::Counter::kIsIterationInvariantRate |
-                                                            benchmark::Counter::kInvert);
+  run.counters["us_per_element"] = benchmark::Counter(
+      plate.surface.n_elements() * 1e-6, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(assembly)->Arg(100)->Arg(200)->Unit(benchmark::kMillisecond);
 

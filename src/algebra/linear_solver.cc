@@ -200,12 +200,12 @@ struct LinearSolver::Impl
 {
   explicit Impl(const LinearSolverSettings &given) : settings(given), ladder(stages(given)) {}
 
-  LinearSolverSettings           settings;
-  std::vector<Stage>             ladder;
-  std::size_t                    first_stage             = 0; ///< where the next solve begins
-  int                            solves_since_escalation = 0;
-  std::unique_ptr<Factorisation> factors; ///< of factors_stage
-  std::size_t                    factors_stage = 0;
+  LinearSolverSettings               settings;
+  std::vector<Stage>                 ladder;
+  std::size_t                        first_stage             = 0; ///< where the next solve begins
+  int                                solves_since_escalation = 0;
+  std::unique_ptr<Factorisation>     factors; ///< of factors_stage
+  std::size_t                        factors_stage = 0;
   std::shared_ptr<const SparseGraph> factors_graph;        ///< the matrix they belong to had this graph
   int                                fresh_iterations = 0; ///< of the solve they were made for
   bool                               keep_factors     = false;
@@ -286,11 +286,11 @@ std::string LinearSolver::Impl::iterate(const Matrix &matrix, Progress &progress
 std::string LinearSolver::Impl::attempt(std::size_t stage, const Matrix &matrix, Progress &progress,
                                         SolveReport &report)
 {
-  const int limit = settings.escalation == Escalation::never ? settings.max_iterations : settings.iteration_limit;
+  const int limit      = settings.escalation == Escalation::never ? settings.max_iterations : settings.iteration_limit;
   int       iterations = 0;
 
   // Kept factors are no reason to escalate: where they do not do, fresh ones of the same kind go on from there.
-  const bool kept = keep_factors && factors && factors_stage == stage && factors_graph == matrix.shared_graph();
+  const bool  kept = keep_factors && factors && factors_stage == stage && factors_graph == matrix.shared_graph();
   std::string failure;
   if (kept)
     {

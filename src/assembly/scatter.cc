@@ -5,7 +5,7 @@ namespace sherd
 
 std::vector<RowRange> row_ranges(const SpaceDistribution &space, int n_ranges)
 {
-  const int n_rows = static_cast<int>(space.owned.size());
+  const int n_rows   = static_cast<int>(space.owned.size());
   const int n_active = static_cast<int>(space.elements.size());
 
   std::vector<RowRange> ranges;

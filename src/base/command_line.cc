@@ -133,8 +133,7 @@ std::string usage(const std::string &program)
       synopsis += " [" + form + "]" + (option.name == "--set" ? "..." : "");
       list += "  " + form + std::string(25 - form.size(), ' ') + option.meaning + "\n";
     }
-  return synopsis + "\n\n" + list +
-         "\nexit status: 0 done, 2 bad input, 3 not converged, 4 stopped early\n";
+  return synopsis + "\n\n" + list + "\nexit status: 0 done, 2 bad input, 3 not converged, 4 stopped early\n";
 }
 
 } // namespace sherd

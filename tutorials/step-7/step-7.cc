@@ -102,7 +102,7 @@ struct Parameters
 
 // The model is one type. To compare splits or degradation functions change this line; the compiler does the rest.
 using Glass =
-  BrittleShell<2, 2, split::SurfaceStretch<material::NeoHooke>, degradation::Cubic, crack_density::FourthOrder>;
+    BrittleShell<2, 2, split::SurfaceStretch<material::NeoHooke>, degradation::Cubic, crack_density::FourthOrder>;
 
 void break_plate(const Environment &env, const step_7::Parameters &prm)
 {
@@ -110,9 +110,9 @@ void break_plate(const Environment &env, const step_7::Parameters &prm)
   OutputDirectory directory(env);
 
   // Plane strain: a slice of unit thickness behaves like a membrane with K = lambda + mu and G = mu (theory B.3).
-  const auto &material  = prm.material;
-  const auto  membrane  = material::NeoHooke(
-    material::plane_strain_moduli(material.youngs_modulus, material.poissons_ratio));
+  const auto &material = prm.material;
+  const auto  membrane =
+      material::NeoHooke(material::plane_strain_moduli(material.youngs_modulus, material.poissons_ratio));
   const Toughness<2> toughness([Gc = material.toughness](const Point<2> &X) { return Gc(X[0], X[1]); });
   const Glass        glass(split::SurfaceStretch<material::NeoHooke>(membrane), degradation::Cubic(material.slope), {},
                            toughness, material.length_scale, material.density);
@@ -129,8 +129,8 @@ void break_plate(const Environment &env, const step_7::Parameters &prm)
 
   MonolithicSolver<Glass, GeneralizedAlpha> solver(glass, space, supports, loads, GeneralizedAlpha(prm.time.rho_inf),
                                                    prm.newton);
-  Adaptivity<Glass> adaptivity(plate, prm.refinement);
-  StepController    controller(prm.time.steps);
+  Adaptivity<Glass>                         adaptivity(plate, prm.refinement);
+  StepController                            controller(prm.time.steps);
   if (env.command_line().check)
     return;
 

@@ -20,10 +20,7 @@ Adaptivity<Model>::Adaptivity(const SurfaceType &surface, const RefinementSettin
 
 template <class Model>
 template <class Solver>
-void Adaptivity<Model>::prepare(Solver                   &solver,
-                                SurfaceType              &surface,
-                                SpaceType                &space,
-                                StateType                &state,
+void Adaptivity<Model>::prepare(Solver &solver, SurfaceType &surface, SpaceType &space, StateType &state,
                                 const PreCrack<spacedim> &pre_crack)
 {
   const auto &model = solver.model();
@@ -54,7 +51,7 @@ void Adaptivity<Model>::prepare(Solver                   &solver,
   const auto X = surface.control_points();
   for (int a = 0; a < state.distribution->n_local(); ++a)
     state.phase.local()[a] =
-      pre_crack.phase(Point<spacedim>(X.row(state.distribution->global(a)).transpose()), model.crack_density);
+        pre_crack.phase(Point<spacedim>(X.row(state.distribution->global(a)).transpose()), model.crack_density);
   int n_cracked = 0;
   for (int e = 0; e < space.n_active_elements(); ++e)
     for (int q = 0; q < state.n_q; ++q)
@@ -74,10 +71,7 @@ void Adaptivity<Model>::prepare(Solver                   &solver,
 
 template <class Model>
 template <class Solver>
-void Adaptivity<Model>::refine(Solver                   &solver,
-                               SurfaceType              &surface,
-                               SpaceType                &space,
-                               StateType                &state,
+void Adaptivity<Model>::refine(Solver &solver, SurfaceType &surface, SpaceType &space, StateType &state,
                                const Triggers<spacedim> &triggers)
 {
   {
@@ -105,12 +99,8 @@ void Adaptivity<Model>::refine(Solver                   &solver,
 
 template <class Model>
 template <class Solver>
-StepSummary Adaptivity<Model>::advance(Solver         &solver,
-                                       SurfaceType    &surface,
-                                       SpaceType      &space,
-                                       StateType      &state,
-                                       StepController &controller,
-                                       double          end_time)
+StepSummary Adaptivity<Model>::advance(Solver &solver, SurfaceType &surface, SpaceType &space, StateType &state,
+                                       StepController &controller, double end_time)
 {
   StepSummary summary;
   for (;;)

@@ -103,11 +103,9 @@ struct Triggers
 /// Coarse functions with a control value below the threshold, and those on elements whose history is close to the
 /// onset of damage. Collective; the same on all ranks.
 template <class Model>
-Triggers<Model::spacedim> find_triggers(const Model                                       &model,
-                                        const ShellSpace<Model::degree, Model::spacedim>  &space,
-                                        const State<Model::degree, Model::spacedim>       &state,
-                                        const SpanTarget                                  &target,
-                                        const RefinementSettings                          &settings)
+Triggers<Model::spacedim> find_triggers(const Model &model, const ShellSpace<Model::degree, Model::spacedim> &space,
+                                        const State<Model::degree, Model::spacedim> &state, const SpanTarget &target,
+                                        const RefinementSettings &settings)
 {
   const auto &surface = space.surface();
   const auto &d       = space.distribution();
@@ -127,10 +125,9 @@ Triggers<Model::spacedim> find_triggers(const Model                             
       const double  peak = *std::max_element(H, H + state.n_q);
       if (peak == 0.)
         continue;
-      const auto [p, local] = surface.locate_element(d.elements[e]);
-      const auto functions  = surface.patch(p).basis.functions_of(local);
-      const Point<Model::spacedim> X =
-        surface.patch(p).control_points.row(functions[functions.size() / 2]).transpose();
+      const auto [p, local]                  = surface.locate_element(d.elements[e]);
+      const auto                   functions = surface.patch(p).basis.functions_of(local);
+      const Point<Model::spacedim> X = surface.patch(p).control_points.row(functions[functions.size() / 2]).transpose();
       if (peak > settings.history_fraction * branch::onset(model.degradation, model.toughness(X), model.length_scale))
         for (const int i : functions)
           if (is_coarse(surface.patch(p).basis.function(i), target))
@@ -154,16 +151,14 @@ Triggers<Model::spacedim> find_triggers(const Model                             
 
 /// Coarse functions whose control point lies within @p radius of one of @p centres.
 template <int degree, int spacedim>
-std::vector<int> coarse_points_near(const Surface<degree, spacedim>    &surface,
-                                    const SpanTarget                   &target,
-                                    const std::vector<Point<spacedim>> &centres,
-                                    double                              radius)
+std::vector<int> coarse_points_near(const Surface<degree, spacedim> &surface, const SpanTarget &target,
+                                    const std::vector<Point<spacedim>> &centres, double radius)
 {
   std::vector<int> near;
   for (const int point : coarse_points(surface, target))
     {
-      const auto [p, i]          = surface.locate_point(point);
-      const Point<spacedim> X    = surface.patch(p).control_points.row(i).transpose();
+      const auto [p, i]           = surface.locate_point(point);
+      const Point<spacedim> X     = surface.patch(p).control_points.row(i).transpose();
       const auto            close = [&](const Point<spacedim> &c) { return (X - c).squaredNorm() <= radius * radius; };
       if (std::any_of(centres.begin(), centres.end(), close))
         near.push_back(point);

@@ -25,7 +25,7 @@ struct BalanceLevel
 /// A quadrature point that may lie on the false branch was found on this active element (theory C.2).
 struct SuspectElements
 {
-  std::vector<int> active; ///< active elements of this rank
+  std::vector<int> active;             ///< active elements of this rank
   double           largest_phase = 0.; ///< on this rank
 };
 
@@ -44,8 +44,7 @@ public:
 
   /// The arguments have to outlive the assembler. Collective.
   /// @throws InvalidParameter   a degenerate element, a toughness that is not positive: on all ranks
-  Assembler(const Model                        &model,
-            const ShellSpace<degree, spacedim> &space,
+  Assembler(const Model &model, const ShellSpace<degree, spacedim> &space,
             std::shared_ptr<const Distribution> distribution);
 
   const Model                               &model() const { return *model_; }
@@ -68,12 +67,8 @@ public:
   void force(const BalanceLevel &level, const QuadratureField &history, Vector &force) const;
 
   /// The same and the tangent; mass_weight * M is added to its displacement block.
-  void linearise(const BalanceLevel    &level,
-                 const QuadratureField &history,
-                 double                 mass_weight,
-                 PhaseTangent           phase_tangent,
-                 Vector                &force,
-                 Matrix                &matrix) const;
+  void linearise(const BalanceLevel &level, const QuadratureField &history, double mass_weight,
+                 PhaseTangent phase_tangent, Vector &force, Matrix &matrix) const;
 
   /// M in the displacement block, 1 on the diagonal of the phase.
   void mass_matrix(Matrix &matrix) const;
@@ -82,9 +77,8 @@ public:
   void add_loads(const Loads<spacedim> &loads, double time, Vector &force) const;
 
   /// Energies at the end of a step that began at phase @p previous, summed over ranks. Collective.
-  Energies
-  energies(const Vector &position, const Vector &velocity, const Vector &phase, const Vector &previous,
-           const QuadratureField &history) const;
+  Energies energies(const Vector &position, const Vector &velocity, const Vector &phase, const Vector &previous,
+                    const QuadratureField &history) const;
 
   /// The history after a step: max(H, Psi+) of the level, by the irreversibility rule of the model.
   QuadratureField committed(const BalanceLevel &level, const QuadratureField &history) const;
@@ -104,7 +98,7 @@ public:
 
 private:
   ElementFields<Model> fields(int active, const Vector &position, const Vector &rate, const Vector &phase) const;
-  void                 scatter_force(int active, const ElementVector<Model> &f, const RowRange &range, Vector &force) const;
+  void scatter_force(int active, const ElementVector<Model> &f, const RowRange &range, Vector &force) const;
   void scatter_matrix(int active, const ElementMatrix<Model> &k, const RowRange &range, Matrix &matrix) const;
 
   const Model                        *model_;

@@ -39,13 +39,16 @@ inline void extract_block(int n, const double *Et, const double *K, int stride_k
 } // namespace internal
 
 template <class Model>
-Assembler<Model>::Assembler(const Model                        &model,
-                            const ShellSpace<degree, spacedim> &space,
+Assembler<Model>::Assembler(const Model &model, const ShellSpace<degree, spacedim> &space,
                             std::shared_ptr<const Distribution> distribution)
-    : model_(&model), space_(&space), distribution_(std::move(distribution)),
-      elements_(space.distribution().elements.size()), scatter_(space.distribution()),
+    : model_(&model),
+      space_(&space),
+      distribution_(std::move(distribution)),
+      elements_(space.distribution().elements.size()),
+      scatter_(space.distribution()),
       ranges_(row_ranges(space.distribution(), omp_get_max_threads())),
-      shortest_edge_(std::numeric_limits<double>::infinity()), phase_scale_(distribution_->n_owned(), 0.),
+      shortest_edge_(std::numeric_limits<double>::infinity()),
+      phase_scale_(distribution_->n_owned(), 0.),
       point_area_(distribution_->n_owned(), 0.)
 {
   const auto &d = space.distribution();
@@ -77,8 +80,8 @@ Assembler<Model>::Assembler(const Model                        &model,
   });
   for (std::size_t e = 0; e < elements_.size(); ++e)
     {
-      const auto &data   = elements_[e];
-      shortest_edge_     = std::min(shortest_edge_, sherd::shortest_edge(data.geometry));
+      const auto &data = elements_[e];
+      shortest_edge_   = std::min(shortest_edge_, sherd::shortest_edge(data.geometry));
       std::optional<ShapeValues<degree>> storage;
       const auto                        &s      = data.geometry.shapes(storage);
       const auto                         points = space.points_of(static_cast<int>(e));
@@ -99,8 +102,8 @@ Assembler<Model>::Assembler(const Model                        &model,
 }
 
 template <class Model>
-ElementFields<Model>
-Assembler<Model>::fields(int active, const Vector &position, const Vector &rate, const Vector &phase) const
+ElementFields<Model> Assembler<Model>::fields(int active, const Vector &position, const Vector &rate,
+                                              const Vector &phase) const
 {
   constexpr int        n_b    = ElementFields<Model>::n_b;
   const auto           points = space_->points_of(active);
@@ -127,14 +130,12 @@ Assembler<Model>::fields(int active, const Vector &position, const Vector &rate,
 }
 
 template <class Model>
-void Assembler<Model>::scatter_force(int                         active,
-                                     const ElementVector<Model> &f,
-                                     const RowRange             &range,
-                                     Vector                     &force) const
+void Assembler<Model>::scatter_force(int active, const ElementVector<Model> &f, const RowRange &range,
+                                     Vector &force) const
 {
-  const auto points = space_->points_of(active);
-  const auto &E     = elements_[active].geometry.extraction;
-  auto        out   = force.local();
+  const auto  points = space_->points_of(active);
+  const auto &E      = elements_[active].geometry.extraction;
+  auto        out    = force.local();
   for (std::size_t i = 0; i < points.size(); ++i)
     if (points[i] >= range.begin && points[i] < range.end)
       for (int c = 0; c < n_fields; ++c)
@@ -147,10 +148,8 @@ void Assembler<Model>::scatter_force(int                         active,
 }
 
 template <class Model>
-void Assembler<Model>::scatter_matrix(int                         active,
-                                      const ElementMatrix<Model> &k,
-                                      const RowRange             &range,
-                                      Matrix                     &matrix) const
+void Assembler<Model>::scatter_matrix(int active, const ElementMatrix<Model> &k, const RowRange &range,
+                                      Matrix &matrix) const
 {
   constexpr int n_b       = ElementMatrix<Model>::n_b;
   const auto    points    = space_->points_of(active);
@@ -160,11 +159,11 @@ void Assembler<Model>::scatter_matrix(int                         active,
   double *const values    = matrix.values().data();
 
   // Degree 2 has 9 to 12 functions on the usual element, degree 3 16 to 24.
-  constexpr int      widest = internal::max_element_points;
-  const int          width  = n <= 12 ? 12 : n <= 24 ? 24 : widest;
-  const auto         block_of = width == 12   ? internal::extract_block<n_b, 12>
-                                : width == 24 ? internal::extract_block<n_b, 24>
-                                              : internal::extract_block<n_b, widest>;
+  constexpr int      widest           = internal::max_element_points;
+  const int          width            = n <= 12 ? 12 : n <= 24 ? 24 : widest;
+  const auto         block_of         = width == 12   ? internal::extract_block<n_b, 12>
+                                        : width == 24 ? internal::extract_block<n_b, 24>
+                                                      : internal::extract_block<n_b, widest>;
   alignas(64) double Et[n_b * widest] = {};
   alignas(64) double block[widest * widest];
   for (int i = 0; i < n; ++i)
@@ -202,12 +201,8 @@ void Assembler<Model>::force(const BalanceLevel &level, const QuadratureField &h
 }
 
 template <class Model>
-void Assembler<Model>::linearise(const BalanceLevel    &level,
-                                 const QuadratureField &history,
-                                 double                 mass_weight,
-                                 PhaseTangent           phase_tangent,
-                                 Vector                &force,
-                                 Matrix                &matrix) const
+void Assembler<Model>::linearise(const BalanceLevel &level, const QuadratureField &history, double mass_weight,
+                                 PhaseTangent phase_tangent, Vector &force, Matrix &matrix) const
 {
   force.fill(0.);
   matrix.set_zero();
@@ -240,7 +235,7 @@ void Assembler<Model>::mass_matrix(Matrix &matrix) const
             for (int a = 0; a < n_b; ++a)
               for (int b = 0; b < n_b; ++b)
                 m.value[d * n_b + a][d * n_b + b] +=
-                  model_->mass * elements_[e].geometry.reference[q].dA * s.value[q][a] * s.value[q][b];
+                    model_->mass * elements_[e].geometry.reference[q].dA * s.value[q][a] * s.value[q][b];
         scatter_matrix(e, m, range, matrix);
       }
   auto values = matrix.values();
@@ -293,11 +288,8 @@ void Assembler<Model>::add_loads(const Loads<spacedim> &loads, double time, Vect
 }
 
 template <class Model>
-Energies Assembler<Model>::energies(const Vector          &position,
-                                    const Vector          &velocity,
-                                    const Vector          &phase,
-                                    const Vector          &previous,
-                                    const QuadratureField &history) const
+Energies Assembler<Model>::energies(const Vector &position, const Vector &velocity, const Vector &phase,
+                                    const Vector &previous, const QuadratureField &history) const
 {
   const auto           &owns = space_->distribution().owns;
   std::vector<Energies> part(elements_.size());
@@ -339,9 +331,9 @@ SuspectElements Assembler<Model>::suspects(const BalanceLevel &level, const Quad
   SuspectElements result;
   for (std::size_t e = 0; e < elements_.size(); ++e)
     {
-      const auto f     = fields(static_cast<int>(e), level.position, level.acceleration, level.phase);
-      const auto phase = element_phase<Model>(elements_[e], f);
-      const auto bound = *std::max_element(phase.begin(), phase.end());
+      const auto f         = fields(static_cast<int>(e), level.position, level.acceleration, level.phase);
+      const auto phase     = element_phase<Model>(elements_[e], f);
+      const auto bound     = *std::max_element(phase.begin(), phase.end());
       result.largest_phase = std::max(result.largest_phase, bound);
       if (bound <= branch::suspect_phase)
         continue;
@@ -361,8 +353,8 @@ template <class Model>
 std::vector<typename Assembler<Model>::ElementDensities> Assembler<Model>::densities(const Vector &position,
                                                                                      const Vector &phase) const
 {
-  std::vector<ElementDensities>   result;
-  const std::vector<double>       zero(n_q, 0.);
+  std::vector<ElementDensities> result;
+  const std::vector<double>     zero(n_q, 0.);
   for (std::size_t e = 0; e < elements_.size(); ++e)
     if (space_->distribution().owns[e])
       {

@@ -34,7 +34,7 @@ public:
     note_largest();
   }
 
-  double external_work() const { return work_; }       ///< by loads and supports since the start [energy]
+  double external_work() const { return work_; }        ///< by loads and supports since the start [energy]
   double irreversible() const { return irreversible_; } ///< since the start [energy]
 
   /// What the energies leave over, relative to the largest of them so far; 0 while all are 0.

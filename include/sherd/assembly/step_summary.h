@@ -11,14 +11,14 @@ namespace sherd
 /// What it took to get one accepted step.
 struct StepSummary
 {
-  double                   dt       = 0.; ///< of the accepted step [time]
-  int                      newton   = 0;  ///< iterations of the accepted attempt
-  int                      linear   = 0;  ///< linear iterations of all attempts
-  int                      attempts = 0;
-  int                      rejected = 0; ///< attempts that failed
-  int                      repeated = 0; ///< attempts discarded because the mesh was too coarse for them
-  int                      switched = 0; ///< branch switches
-  int                      refined  = 0; ///< refinements of the mesh
+  double                   dt            = 0.; ///< of the accepted step [time]
+  int                      newton        = 0;  ///< iterations of the accepted attempt
+  int                      linear        = 0;  ///< linear iterations of all attempts
+  int                      attempts      = 0;
+  int                      rejected      = 0;  ///< attempts that failed
+  int                      repeated      = 0;  ///< attempts discarded because the mesh was too coarse for them
+  int                      switched      = 0;  ///< branch switches
+  int                      refined       = 0;  ///< refinements of the mesh
   double                   external_work = 0.; ///< over the step [energy]
   double                   largest_phase = 0.;
   Energies                 energies; ///< at the end of the step, before a refinement

@@ -23,12 +23,8 @@ namespace sherd
 /// @tparam spacedim  2: a membrane in the plane; 3: a shell in space
 ///
 /// Source: theory B.4, E; paper Eqs. (5), (6), (9).
-template <int                  degree_,
-          int                  spacedim_,
-          EnergySplit<spacedim_> Split,
-          Degradation          DegradationFunction,
-          CrackDensity         Density,
-          Irreversibility      IrreversibilityRule = irreversibility::History>
+template <int degree_, int spacedim_, EnergySplit<spacedim_> Split, Degradation DegradationFunction,
+          CrackDensity Density, Irreversibility IrreversibilityRule = irreversibility::History>
 struct BrittleShell
 {
   static constexpr int degree   = degree_;
@@ -44,15 +40,14 @@ struct BrittleShell
   double              mass;         ///< rho, mass by reference area
 
   /// @throws InvalidParameter   unless length_scale and mass are positive and finite
-  BrittleShell(Split               split_,
-               DegradationFunction degradation_,
-               Density             crack_density_,
-               Toughness<spacedim> toughness_,
-               double              length_scale_,
-               double              mass_,
-               IrreversibilityRule irreversibility_ = {})
-      : split(std::move(split_)), degradation(std::move(degradation_)), crack_density(std::move(crack_density_)),
-        irreversibility(std::move(irreversibility_)), toughness(std::move(toughness_)), length_scale(length_scale_),
+  BrittleShell(Split split_, DegradationFunction degradation_, Density crack_density_, Toughness<spacedim> toughness_,
+               double length_scale_, double mass_, IrreversibilityRule irreversibility_ = {})
+      : split(std::move(split_)),
+        degradation(std::move(degradation_)),
+        crack_density(std::move(crack_density_)),
+        irreversibility(std::move(irreversibility_)),
+        toughness(std::move(toughness_)),
+        length_scale(length_scale_),
         mass(mass_)
   {
     require_positive(length_scale, "length scale l0");

@@ -44,8 +44,7 @@ namespace internal
 typedef double Pack __attribute__((vector_size(32), aligned(8), may_alias));
 
 template <int rows_of_c, int n_packs>
-inline void
-add_rows(int rows, const double *A, int stride_a, const double *B, int stride_b, double *C, int stride_c)
+inline void add_rows(int rows, const double *A, int stride_a, const double *B, int stride_b, double *C, int stride_c)
 {
   Pack sum[rows_of_c][n_packs] = {};
   for (int r = 0; r < rows; ++r)
@@ -75,8 +74,8 @@ constexpr int padded(int n)
 /// C += A^T B with A: rows x M, B: rows x N, C: M x N, all by rows with the given strides. N is a multiple of 4; where
 /// it is padded, B holds zeros, which are added to whatever follows in the row of C.
 template <int M, int N>
-inline void
-add_transposed_product(int rows, const double *A, int stride_a, const double *B, int stride_b, double *C, int stride_c)
+inline void add_transposed_product(int rows, const double *A, int stride_a, const double *B, int stride_b, double *C,
+                                   int stride_c)
 {
   static_assert(N % 4 == 0);
   // As many rows of C at a time as leave their sums in registers.

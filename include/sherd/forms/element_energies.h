@@ -34,14 +34,11 @@ struct Energies
 ///
 /// Source: theory D (energy balance), J.7 (vi).
 template <class Model>
-Energies element_energies(const Model                &model,
-                          const ElementData<Model>   &data,
-                          const ElementFields<Model> &fields,
-                          const double               *previous_phase,
-                          const double               *history)
+Energies element_energies(const Model &model, const ElementData<Model> &data, const ElementFields<Model> &fields,
+                          const double *previous_phase, const double *history)
 {
   std::optional<ShapeValues<Model::degree>> storage;
-  const auto                               &s = data.geometry.shapes(storage);
+  const auto                               &s  = data.geometry.shapes(storage);
   const double                              l0 = model.length_scale;
   Energies                                  sum;
   for (int q = 0; q < s.n_points; ++q)
@@ -55,8 +52,7 @@ Energies element_energies(const Model                &model,
       for (int b = 0; b < s.n_functions; ++b)
         before += s.value[q][b] * previous_phase[b];
 
-      const double gradient =
-        A[0] * p.phi_1 * p.phi_1 + A[1] * p.phi_2 * p.phi_2 + 2. * A[2] * p.phi_1 * p.phi_2;
+      const double gradient = A[0] * p.phi_1 * p.phi_1 + A[1] * p.phi_2 * p.phi_2 + 2. * A[2] * p.phi_1 * p.phi_2;
       sum.active += reference.dA * model.degradation.value(p.phi) * p.response.energy_active;
       sum.passive += reference.dA * p.response.energy_passive;
       sum.kinetic += reference.dA * .5 * model.mass * p.inertia.squaredNorm();
@@ -70,8 +66,8 @@ Energies element_energies(const Model                &model,
 
 /// Active energy Psi+ at the quadrature points of one element, shape=(n_q), [energy/area].
 template <class Model>
-std::array<double, ElementData<Model>::n_q>
-element_active_energy(const Model &model, const ElementData<Model> &data, const ElementFields<Model> &fields)
+std::array<double, ElementData<Model>::n_q> element_active_energy(const Model &model, const ElementData<Model> &data,
+                                                                  const ElementFields<Model> &fields)
 {
   std::optional<ShapeValues<Model::degree>>   storage;
   const auto                                 &s = data.geometry.shapes(storage);
@@ -79,7 +75,7 @@ element_active_energy(const Model &model, const ElementData<Model> &data, const 
   for (int q = 0; q < s.n_points; ++q)
     {
       const auto laplace = shape_laplacians(s, data.geometry.reference[q], q);
-      energy[q] = evaluate_point(model, data, s, fields, laplace.data(), 0., q).response.energy_active;
+      energy[q]          = evaluate_point(model, data, s, fields, laplace.data(), 0., q).response.energy_active;
     }
   return energy;
 }

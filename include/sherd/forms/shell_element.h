@@ -22,16 +22,14 @@ struct ElementData
 {
   static constexpr int n_q = ShapeValues<Model::degree>::n_points;
 
-  ElementGeometry<Model::degree, Model::spacedim>     geometry;
-  std::array<ReferencePoint<Model::spacedim>, n_q>    reference;
-  std::array<double, n_q>                             toughness; ///< Gc [energy/length]
+  ElementGeometry<Model::degree, Model::spacedim>  geometry;
+  std::array<ReferencePoint<Model::spacedim>, n_q> reference;
+  std::array<double, n_q>                          toughness; ///< Gc [energy/length]
 };
 
 /// @throws InvalidParameter   degenerate geometry, a toughness that is not positive and finite
 template <class Model>
-ElementData<Model> element_data(const Model                                    &model,
-                                const Surface<Model::degree, Model::spacedim> &surface,
-                                int                                             element)
+ElementData<Model> element_data(const Model &model, const Surface<Model::degree, Model::spacedim> &surface, int element)
 {
   ElementData<Model> data;
   data.geometry = element_geometry(surface, element);
@@ -56,13 +54,9 @@ struct PointState
 
 /// Evaluates one quadrature point. @p laplace holds the Laplacians of the shape functions there, shape=(n_b).
 template <class Model>
-PointState<Model> evaluate_point(const Model                &model,
-                                 const ElementData<Model>   &data,
-                                 const ShapeValues<Model::degree> &s,
-                                 const ElementFields<Model> &fields,
-                                 const double               *laplace,
-                                 double                      accepted_history,
-                                 int                         q)
+PointState<Model> evaluate_point(const Model &model, const ElementData<Model> &data,
+                                 const ShapeValues<Model::degree> &s, const ElementFields<Model> &fields,
+                                 const double *laplace, double accepted_history, int q)
 {
   constexpr int     n_b = ElementFields<Model>::n_b;
   PointState<Model> p{};
@@ -86,16 +80,16 @@ PointState<Model> evaluate_point(const Model                &model,
       p.phi_2 += s.d2[q][b] * fields.phase[b];
       p.laplacian += laplace[b] * fields.phase[b];
     }
-  p.response = model.split.respond(
-    SurfacePoint<Model::spacedim>(data.reference[q], metric<Model::spacedim>(p.a1, p.a2)));
+  p.response =
+      model.split.respond(SurfacePoint<Model::spacedim>(data.reference[q], metric<Model::spacedim>(p.a1, p.a2)));
   p.driving = model.irreversibility.trial(accepted_history, p.response.energy_active);
   return p;
 }
 
 /// Laplacian of every shape function on the reference surface, A^ab (S,ab - Gamma^c_ab S,c). Source: theory A.2.
 template <int degree>
-std::array<double, ShapeValues<degree>::n_functions>
-shape_laplacians(const ShapeValues<degree> &s, const ReferenceQuadraturePoint &reference, int q)
+std::array<double, ShapeValues<degree>::n_functions> shape_laplacians(const ShapeValues<degree>      &s,
+                                                                      const ReferenceQuadraturePoint &reference, int q)
 {
   std::array<double, ShapeValues<degree>::n_functions> laplace;
   const auto                                          &A = reference.contravariant;
@@ -115,11 +109,8 @@ shape_laplacians(const ShapeValues<degree> &s, const ReferenceQuadraturePoint &r
 ///
 /// Source: theory E.1; paper Eqs. (5), (12).
 template <class Model>
-void element_force(const Model                &model,
-                   const ElementData<Model>   &data,
-                   const ElementFields<Model> &fields,
-                   const double               *history,
-                   ElementVector<Model>       &force);
+void element_force(const Model &model, const ElementData<Model> &data, const ElementFields<Model> &fields,
+                   const double *history, ElementVector<Model> &force);
 
 /// The same, and its tangent with respect to (x, phi); mass_weight rho N_A N_B is added to the displacement block
 /// (theory E.2, F.2). The phase row has the derivative of H where it loads.
@@ -128,14 +119,9 @@ void element_force(const Model                &model,
 ///
 /// Source: theory E.1, E.2.
 template <class Model>
-void element_tangent(const Model                &model,
-                     const ElementData<Model>   &data,
-                     const ElementFields<Model> &fields,
-                     const double               *history,
-                     double                      mass_weight,
-                     PhaseTangent                phase_tangent,
-                     ElementVector<Model>       &force,
-                     ElementMatrix<Model>       &matrix);
+void element_tangent(const Model &model, const ElementData<Model> &data, const ElementFields<Model> &fields,
+                     const double *history, double mass_weight, PhaseTangent phase_tangent, ElementVector<Model> &force,
+                     ElementMatrix<Model> &matrix);
 
 } // namespace sherd
 

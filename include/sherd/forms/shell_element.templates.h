@@ -14,13 +14,8 @@ namespace internal
 
 /// Adds the contribution of one quadrature point to the element force.
 template <class Model>
-void add_point_force(const Model                      &model,
-                     const ElementData<Model>         &data,
-                     const ShapeValues<Model::degree> &s,
-                     const PointState<Model>          &p,
-                     const double                     *laplace,
-                     int                               q,
-                     ElementVector<Model>             &force)
+void add_point_force(const Model &model, const ElementData<Model> &data, const ShapeValues<Model::degree> &s,
+                     const PointState<Model> &p, const double *laplace, int q, ElementVector<Model> &force)
 {
   constexpr int n_b       = ElementVector<Model>::n_b;
   constexpr int dim       = Model::spacedim;
@@ -29,9 +24,9 @@ void add_point_force(const Model                      &model,
   const double  l0        = model.length_scale;
   const double  stiffness = data.toughness[q] / (2. * l0) * dA;
 
-  const Voigt            tau = degraded_stress(p.response, model.degradation.value(p.phi)).membrane;
-  const Point<dim>       t1  = dA * (tau[0] * p.a1 + tau[2] * p.a2);
-  const Point<dim>       t2  = dA * (tau[2] * p.a1 + tau[1] * p.a2);
+  const Voigt      tau = degraded_stress(p.response, model.degradation.value(p.phi)).membrane;
+  const Point<dim> t1  = dA * (tau[0] * p.a1 + tau[2] * p.a2);
+  const Point<dim> t2  = dA * (tau[2] * p.a1 + tau[1] * p.a2);
   for (int d = 0; d < dim; ++d)
     {
       const double inertia = dA * model.mass * p.inertia[d];
@@ -52,11 +47,8 @@ void add_point_force(const Model                      &model,
 } // namespace internal
 
 template <class Model>
-void element_force(const Model                &model,
-                   const ElementData<Model>   &data,
-                   const ElementFields<Model> &fields,
-                   const double               *history,
-                   ElementVector<Model>       &force)
+void element_force(const Model &model, const ElementData<Model> &data, const ElementFields<Model> &fields,
+                   const double *history, ElementVector<Model> &force)
 {
   std::optional<ShapeValues<Model::degree>> storage;
   const auto                               &s = data.geometry.shapes(storage);
@@ -70,14 +62,9 @@ void element_force(const Model                &model,
 }
 
 template <class Model>
-void element_tangent(const Model                &model,
-                     const ElementData<Model>   &data,
-                     const ElementFields<Model> &fields,
-                     const double               *history,
-                     double                      mass_weight,
-                     PhaseTangent                phase_tangent,
-                     ElementVector<Model>       &force,
-                     ElementMatrix<Model>       &matrix)
+void element_tangent(const Model &model, const ElementData<Model> &data, const ElementFields<Model> &fields,
+                     const double *history, double mass_weight, PhaseTangent phase_tangent, ElementVector<Model> &force,
+                     ElementMatrix<Model> &matrix)
 {
   constexpr int dim    = Model::spacedim;
   constexpr int n_b    = ElementMatrix<Model>::n_b;
@@ -88,19 +75,19 @@ void element_tangent(const Model                &model,
   constexpr int stride = ElementMatrix<Model>::stride;
 
   std::optional<ShapeValues<Model::degree>> storage;
-  const auto                               &s = data.geometry.shapes(storage);
+  const auto                               &s  = data.geometry.shapes(storage);
   const double                              l0 = model.length_scale;
 
   // Each integral is a product of tables that stack the quadrature points: left rows times weighted right rows.
-  alignas(64) double strain[3 * n_q][pad_u]   = {}; // engineering strain of (11, 22, 12) by displacement
-  alignas(64) double stress[3 * n_q][pad_u]   = {}; // dA c strain
-  alignas(64) double slope[3 * n_q][pad_b]    = {}; // N,1  N,2  N
+  alignas(64) double strain[3 * n_q][pad_u]    = {}; // engineering strain of (11, 22, 12) by displacement
+  alignas(64) double stress[3 * n_q][pad_u]    = {}; // dA c strain
+  alignas(64) double slope[3 * n_q][pad_b]     = {}; // N,1  N,2  N
   alignas(64) double geometric[3 * n_q][pad_b] = {}; // dA tau^ab N,b and the weighted mass
-  alignas(64) double force_u[n_q][pad_u]      = {}; // dA g' tau+^ab N,a a_b: displacement by phase
-  alignas(64) double driving_u[n_q][pad_u]    = {}; // the same from the derivative of H: phase by displacement
-  alignas(64) double value[n_q][pad_b]        = {}; // N
-  alignas(64) double phase_l[4 * n_q][pad_b]  = {}; // N  N,1  N,2  lap N
-  alignas(64) double phase_r[4 * n_q][pad_b]  = {}; // the same, weighted
+  alignas(64) double force_u[n_q][pad_u]       = {}; // dA g' tau+^ab N,a a_b: displacement by phase
+  alignas(64) double driving_u[n_q][pad_u]     = {}; // the same from the derivative of H: phase by displacement
+  alignas(64) double value[n_q][pad_b]         = {}; // N
+  alignas(64) double phase_l[4 * n_q][pad_b]   = {}; // N  N,1  N,2  lap N
+  alignas(64) double phase_r[4 * n_q][pad_b]   = {}; // the same, weighted
 
   force  = {};
   matrix = {};
@@ -135,18 +122,18 @@ void element_tangent(const Model                &model,
         {
           force_u[q][k] = tau_plus[0] * e[3 * q][k] + tau_plus[1] * e[3 * q + 1][k] + tau_plus[2] * e[3 * q + 2][k];
           driving_u[q][k] =
-            tau_drive[0] * e[3 * q][k] + tau_drive[1] * e[3 * q + 1][k] + tau_drive[2] * e[3 * q + 2][k];
+              tau_drive[0] * e[3 * q][k] + tau_drive[1] * e[3 * q + 1][k] + tau_drive[2] * e[3 * q + 2][k];
         }
 
       const double stiffness = data.toughness[q] / (2. * l0) * dA;
       const double Gc        = data.toughness[q];
       const double kappa     = dA * (phase_tangent == PhaseTangent::consistent
-                                       ? branch::stiffness(model.degradation, p.driving, p.phi, Gc, l0)
-                                       : branch::switched_stiffness(model.degradation, p.driving, p.phi, Gc, l0));
-      const double c1 = stiffness * model.crack_density.c1(l0);
-      const double c2 = stiffness * model.crack_density.c2(l0);
-      const auto  &A  = reference.contravariant;
-      const double m  = mass_weight * model.mass * dA;
+                                         ? branch::stiffness(model.degradation, p.driving, p.phi, Gc, l0)
+                                         : branch::switched_stiffness(model.degradation, p.driving, p.phi, Gc, l0));
+      const double c1        = stiffness * model.crack_density.c1(l0);
+      const double c2        = stiffness * model.crack_density.c2(l0);
+      const auto  &A         = reference.contravariant;
+      const double m         = mass_weight * model.mass * dA;
       for (int b = 0; b < n_b; ++b)
         {
           const double n = s.value[q][b], n1 = s.d1[q][b], n2 = s.d2[q][b];

@@ -34,10 +34,10 @@ struct ElementGeometry
   static constexpr int n_b = ShapeValues<degree>::n_functions;
   static constexpr int n_q = ShapeValues<degree>::n_points;
 
-  std::vector<int>                                     points;      ///< control points, ascending
-  ExtractionMatrix<degree>                             extraction;  ///< E, shape=(n_functions, n_b)
-  std::optional<std::array<double, n_b>>               denominator; ///< W_b of a rational element
-  std::array<ReferenceQuadraturePoint, n_q>            reference;
+  std::vector<int>                                      points;      ///< control points, ascending
+  ExtractionMatrix<degree>                              extraction;  ///< E, shape=(n_functions, n_b)
+  std::optional<std::array<double, n_b>>                denominator; ///< W_b of a rational element
+  std::array<ReferenceQuadraturePoint, n_q>             reference;
   Eigen::Matrix<double, spacedim, n_b, Eigen::RowMajor> bezier_points; ///< numerators of X: X = sum_b S_b X_b
 
   /// Shape functions; @p storage is used by rational elements only.
@@ -71,9 +71,9 @@ ElementGeometry<degree, spacedim> element_geometry(const Surface<degree, spacedi
 template <int degree, int spacedim>
 double shortest_edge(const ElementGeometry<degree, spacedim> &geometry)
 {
-  constexpr int n       = degree + 1;
+  constexpr int n          = degree + 1;
   double        lengths[4] = {0., 0., 0., 0.};
-  const auto    corner  = [&](int b) -> Point<spacedim> {
+  const auto    corner     = [&](int b) -> Point<spacedim> {
     return geometry.bezier_points.col(b) / (geometry.denominator ? (*geometry.denominator)[b] : 1.);
   };
   for (int k = 0; k < degree; ++k)

@@ -48,10 +48,10 @@ ElementGeometry<degree, spacedim> element_geometry(const Surface<degree, spacedi
           A22 += s.d22[q][b] * X;
           A12 += s.d12[q][b] * X;
         }
-      auto &point            = g.reference[q];
-      point.covariant        = Voigt(A1.dot(A1), A2.dot(A2), A1.dot(A2));
-      const auto  &A         = point.covariant;
-      const double det       = A[0] * A[1] - A[2] * A[2];
+      auto &point      = g.reference[q];
+      point.covariant  = Voigt(A1.dot(A1), A2.dot(A2), A1.dot(A2));
+      const auto  &A   = point.covariant;
+      const double det = A[0] * A[1] - A[2] * A[2];
       if (!(det > 0.))
         throw InvalidParameter("surface: element " + std::to_string(element) +
                                " is degenerate, the determinant of its metric is " + print(det) +

@@ -39,7 +39,7 @@ Surface<degree, spacedim> plate(const std::array<double, 2> &size, const std::ar
                                ", expected at least 1");
     }
   LRBasis<degree>         basis(uniform_knots<degree>(elements[0]), uniform_knots<degree>(elements[1]));
-  const int               n = basis.n_functions();
+  const int               n      = basis.n_functions();
   ControlValues<spacedim> points = ControlValues<spacedim>::Zero(n, spacedim);
   for (int i = 0; i < n; ++i)
     for (int d = 0; d < 2; ++d)

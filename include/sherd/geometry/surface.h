@@ -65,7 +65,8 @@ public:
 
   /// Refines around the marked control points down to @p target, by the structured mesh strategy (theory H.4).
   /// Exact: the surface and every field on it stay the same functions.
-  /// @throws Error   if the refined functions are linearly dependent, which structured refinement has not been seen to do
+  /// @throws Error   if the refined functions are linearly dependent, which structured refinement has not been seen to
+  /// do
   /// @throws InvalidParameter   a control point that does not exist, a target that is not positive
   SurfaceRefinement refine(const std::vector<int> &points, const SpanTarget &target);
 

@@ -91,9 +91,9 @@ SurfaceRefinement Surface<degree, spacedim>::refine(const std::vector<int> &poin
   result.transfer.offsets.assign(1, 0);
   for (int p = 0; p < n_patches(); ++p)
     {
-      auto      &patch    = patches_[p];
-      auto       refined  = patch.basis.refine(marked[p], target);
-      const auto transfer = rational_transfer(std::move(refined.transfer), patch.weights);
+      auto      &patch     = patches_[p];
+      auto       refined   = patch.basis.refine(marked[p], target);
+      const auto transfer  = rational_transfer(std::move(refined.transfer), patch.weights);
       patch.control_points = transfer.apply(patch.control_points);
       for (int i = 0; i < transfer.n_rows(); ++i)
         {
@@ -109,9 +109,8 @@ SurfaceRefinement Surface<degree, spacedim>::refine(const std::vector<int> &poin
     }
   for (int p = 0; p < n_patches(); ++p)
     if (const auto check = check_independence(patches_[p].basis); !check.independent())
-      throw Error("surface: refinement made " + std::to_string(check.dependent.size()) +
-                  " functions of patch " + std::to_string(p) +
-                  " linearly dependent; refine a wider neighbourhood (theory H.5)");
+      throw Error("surface: refinement made " + std::to_string(check.dependent.size()) + " functions of patch " +
+                  std::to_string(p) + " linearly dependent; refine a wider neighbourhood (theory H.5)");
   number();
   return result;
 }
@@ -147,9 +146,8 @@ std::vector<int> elements_along(const Surface<degree, spacedim> &surface, const 
   for (int e = 0; e < basis.n_elements(); ++e)
     if (outer(e) == border)
       elements.push_back(e);
-  std::sort(elements.begin(), elements.end(), [&](int a, int b) {
-    return basis.element(a).min[tangent] < basis.element(b).min[tangent];
-  });
+  std::sort(elements.begin(), elements.end(),
+            [&](int a, int b) { return basis.element(a).min[tangent] < basis.element(b).min[tangent]; });
   for (int &e : elements)
     e += surface.element_offset(edge.patch);
   return elements;

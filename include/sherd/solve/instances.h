@@ -15,13 +15,14 @@ namespace sherd
 
 namespace models
 {
-/// Plate in the plane: neo-Hooke, surface-stretch split, cubic degradation, fourth-order density, degree 2 (the paper's).
+/// Plate in the plane: neo-Hooke, surface-stretch split, cubic degradation, fourth-order density, degree 2 (the
+/// paper's).
 using Plate =
-  BrittleShell<2, 2, split::SurfaceStretch<material::NeoHooke>, degradation::Cubic, crack_density::FourthOrder>;
+    BrittleShell<2, 2, split::SurfaceStretch<material::NeoHooke>, degradation::Cubic, crack_density::FourthOrder>;
 
 /// The same without a split: compression cracks as tension does.
 using UnsplitPlate =
-  BrittleShell<2, 2, split::None<material::NeoHooke>, degradation::Cubic, crack_density::FourthOrder>;
+    BrittleShell<2, 2, split::None<material::NeoHooke>, degradation::Cubic, crack_density::FourthOrder>;
 } // namespace models
 
 extern template class Assembler<models::Plate>;

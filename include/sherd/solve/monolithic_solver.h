@@ -22,10 +22,10 @@ struct StepResult
 {
   /// The state at the end of the step, its history committed; nothing if the step has to be rejected.
   std::optional<State<degree, spacedim>> state;
-  std::string                            failure; ///< why there is none
-  int                                    newton   = 0; ///< consistent Newton iterations, n_NR of paper Eq. (13)
-  int                                    linear   = 0; ///< linear iterations, all together
-  int                                    switched = 0; ///< branch switches (theory C.2 2)
+  std::string                            failure;            ///< why there is none
+  int                                    newton        = 0;  ///< consistent Newton iterations, n_NR of paper Eq. (13)
+  int                                    linear        = 0;  ///< linear iterations, all together
+  int                                    switched      = 0;  ///< branch switches (theory C.2 2)
   double                                 external_work = 0.; ///< by loads and supports over the step [energy]
   double                                 largest_phase = 0.; ///< at a quadrature point
   std::vector<double>                    residuals; ///< |r_u| and |r_phi| relative to their tolerances, larger one
@@ -50,12 +50,8 @@ public:
   using StateType               = State<degree, spacedim>;
   using Result                  = StepResult<degree, spacedim>;
 
-  MonolithicSolver(const Model                        &model,
-                   const ShellSpace<degree, spacedim> &space,
-                   const Supports                     &supports,
-                   const Loads<spacedim>              &loads,
-                   const Integrator                   &integrator,
-                   const NewtonSettings               &settings);
+  MonolithicSolver(const Model &model, const ShellSpace<degree, spacedim> &space, const Supports &supports,
+                   const Loads<spacedim> &loads, const Integrator &integrator, const NewtonSettings &settings);
 
   /// Prepares for the present mesh of the space and the distribution of @p state. Call it first and after each
   /// refinement. Collective.

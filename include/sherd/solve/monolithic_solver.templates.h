@@ -29,15 +29,18 @@ struct MonolithicSolver<Model, Integrator>::System
   Vector residual;     ///< block n_fields
   Vector increment;    ///< block n_fields
 
-  System(const Stage             &stage_,
-         const Motion            &old_,
-         Motion                   next_,
-         Vector                   phase_,
-         const QuadratureField   &history_,
-         const std::vector<char> &fixed_,
-         Vector                   load_)
-      : stage(stage_), old(old_), next(std::move(next_)), phase(std::move(phase_)), history(history_), fixed(fixed_),
-        load(std::move(load_)), position(next.position), acceleration(next.acceleration), residual(load),
+  System(const Stage &stage_, const Motion &old_, Motion next_, Vector phase_, const QuadratureField &history_,
+         const std::vector<char> &fixed_, Vector load_)
+      : stage(stage_),
+        old(old_),
+        next(std::move(next_)),
+        phase(std::move(phase_)),
+        history(history_),
+        fixed(fixed_),
+        load(std::move(load_)),
+        position(next.position),
+        acceleration(next.acceleration),
+        residual(load),
         increment(load)
   {
     update_levels();
@@ -55,9 +58,9 @@ struct MonolithicSolver<Model, Integrator>::System
   /// Adds the increment; the phase part is scaled down to @p largest_phase_step.
   void advance(double largest_phase_step)
   {
-    const auto d     = increment.local();
-    const auto n     = static_cast<std::size_t>(phase.distribution().n_local());
-    double     peak  = 0.;
+    const auto d    = increment.local();
+    const auto n    = static_cast<std::size_t>(phase.distribution().n_local());
+    double     peak = 0.;
     for (std::size_t a = 0; a < n; ++a)
       peak = std::max(peak, std::abs(d[a * n_fields + spacedim]));
     MPI_Allreduce(MPI_IN_PLACE, &peak, 1, MPI_DOUBLE, MPI_MAX, phase.distribution().comm());
@@ -73,14 +76,16 @@ struct MonolithicSolver<Model, Integrator>::System
 };
 
 template <class Model, TimeIntegrator Integrator>
-MonolithicSolver<Model, Integrator>::MonolithicSolver(const Model                        &model,
-                                                      const ShellSpace<degree, spacedim> &space,
-                                                      const Supports                     &supports,
-                                                      const Loads<spacedim>              &loads,
-                                                      const Integrator                   &integrator,
-                                                      const NewtonSettings               &settings)
-    : model_(&model), space_(&space), supports_(&supports), loads_(&loads), integrator_(integrator),
-      settings_(settings), linear_solver_(settings.linear)
+MonolithicSolver<Model, Integrator>::MonolithicSolver(const Model &model, const ShellSpace<degree, spacedim> &space,
+                                                      const Supports &supports, const Loads<spacedim> &loads,
+                                                      const Integrator &integrator, const NewtonSettings &settings)
+    : model_(&model),
+      space_(&space),
+      supports_(&supports),
+      loads_(&loads),
+      integrator_(integrator),
+      settings_(settings),
+      linear_solver_(settings.linear)
 {
 }
 
@@ -100,26 +105,26 @@ void MonolithicSolver<Model, Integrator>::rebuild(const StateType &state)
 }
 
 template <class Model, TimeIntegrator Integrator>
-typename MonolithicSolver<Model, Integrator>::Norms
-MonolithicSolver<Model, Integrator>::linearise(System &system, PhaseTangent tangent)
+typename MonolithicSolver<Model, Integrator>::Norms MonolithicSolver<Model, Integrator>::linearise(System      &system,
+                                                                                                   PhaseTangent tangent)
 {
   const auto timing = timers_.measure("assembly");
   Vector     force(assembler_->distribution(), n_fields);
   assembler_->linearise(system.level(), system.history, system.stage.mass_weight(), tangent, force, *matrix_);
 
   // Squared norms over the owned unknowns: residual, load, reaction of the supports, inertia (lumped).
-  double       sums[4] = {0., 0., 0., 0.};
+  double       sums[4]  = {0., 0., 0., 0.};
   double       peaks[2] = {0., 0.}; // scaled phase residual, extent of the body
-  const int    n_owned = assembler_->distribution()->n_owned();
-  const double nan     = std::numeric_limits<double>::quiet_NaN();
+  const int    n_owned  = assembler_->distribution()->n_owned();
+  const double nan      = std::numeric_limits<double>::quiet_NaN();
   for (int i = 0; i < n_owned; ++i)
     {
       for (int c = 0; c < spacedim; ++c)
         {
-          const int    k             = i * n_fields + c;
-          const double residual      = system.load.local()[k] - force.local()[k];
-          const double inertia       = model_->mass * assembler_->point_area()[i] *
-                                 system.acceleration.local()[i * spacedim + c];
+          const int    k        = i * n_fields + c;
+          const double residual = system.load.local()[k] - force.local()[k];
+          const double inertia =
+              model_->mass * assembler_->point_area()[i] * system.acceleration.local()[i * spacedim + c];
           system.residual.local()[k] = system.fixed[k] ? 0. : residual;
           sums[system.fixed[k] ? 2 : 0] += residual * residual;
           sums[1] += system.load.local()[k] * system.load.local()[k];
@@ -141,8 +146,8 @@ MonolithicSolver<Model, Integrator>::linearise(System &system, PhaseTangent tang
 
   // Membrane forces cancel to rounding of the coordinates; below that a relative residual has no meaning.
   const double n_unknowns = static_cast<double>(spacedim) * space_->surface().n_control_points();
-  const double floor      = 100. * std::numeric_limits<double>::epsilon() *
-                       (model_->split.bulk() + model_->split.shear()) * peaks[1] * std::sqrt(n_unknowns);
+  const double floor = 100. * std::numeric_limits<double>::epsilon() * (model_->split.bulk() + model_->split.shear()) *
+                       peaks[1] * std::sqrt(n_unknowns);
   const double reference = std::sqrt(std::max({sums[1], sums[2], sums[3]}));
   const double allowed   = settings_.displacement_tolerance * reference + floor;
   if (!std::isfinite(sums[0] + sums[1] + sums[2] + sums[3]))
@@ -173,9 +178,9 @@ void MonolithicSolver<Model, Integrator>::constrain_rows(const std::vector<char>
     for (int c = 0; c < n_fields; ++c)
       if (fixed[a * n_fields + c])
         {
-          const auto row   = matrix_->graph().row(a);
-          const auto k     = std::lower_bound(row.begin(), row.end(), a) - row.begin();
-          const auto start = values.begin() + matrix_->row_start(a) + c * matrix_->row_length(a);
+          const auto row      = matrix_->graph().row(a);
+          const auto k        = std::lower_bound(row.begin(), row.end(), a) - row.begin();
+          const auto start    = values.begin() + matrix_->row_start(a) + c * matrix_->row_length(a);
           const auto diagonal = start + k * n_fields + c;
           const auto kept     = *diagonal;
           std::fill(start, start + matrix_->row_length(a), 0.);
@@ -335,7 +340,7 @@ MonolithicSolver<Model, Integrator>::attempt(const StateType &state, double dt)
 template <class Model, TimeIntegrator Integrator>
 double MonolithicSolver<Model, Integrator>::supported_position(const Constraint &c, double time) const
 {
-  const auto  point = assembler_->distribution()->global(c.point);
+  const auto point  = assembler_->distribution()->global(c.point);
   const auto [p, i] = space_->surface().locate_point(static_cast<int>(point));
   return space_->surface().patch(p).control_points(i, c.component) + supports_->list()[c.support].displacement(time);
 }
@@ -349,9 +354,8 @@ void MonolithicSolver<Model, Integrator>::equilibrate_phase(StateType &state)
     fixed[i] = 0;
   const Motion frozen{state.position, state.velocity, state.acceleration};
   const Stage  here{1., 1., 1., 1., 1.};
-  System       system(here, frozen, frozen, state.phase, state.history, fixed,
-                Vector(assembler_->distribution(), n_fields));
-  Result       result;
+  System system(here, frozen, frozen, state.phase, state.history, fixed, Vector(assembler_->distribution(), n_fields));
+  Result result;
   if (!find_stable_state(system, result))
     throw NoConvergence("initial phase field: " + result.failure);
   state.phase          = system.phase;

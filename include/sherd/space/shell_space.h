@@ -28,7 +28,8 @@ struct SpaceTopology
 /// of them; exactly one of them, its owner, counts its energy and keeps its history when these are gathered.
 ///
 /// Local numbering of control points: the owned ones in reverse Cuthill-McKee order, then the ghosts ascending.
-/// Active elements are ordered by their first local control point, so that neighbours in memory are neighbours in space.
+/// Active elements are ordered by their first local control point, so that neighbours in memory are neighbours in
+/// space.
 struct SpaceDistribution
 {
   std::vector<std::int64_t> owned;           ///< surface ids of the owned control points, local 0, 1, ...

@@ -15,7 +15,9 @@ namespace sherd
 class QuadratureField
 {
 public:
-  QuadratureField(int n_elements, int n_points) : n_points_(n_points), values_(n_elements * std::size_t(n_points), 0.) {}
+  QuadratureField(int n_elements, int n_points) : n_points_(n_points), values_(n_elements * std::size_t(n_points), 0.)
+  {
+  }
 
   double       *operator[](int element) { return values_.data() + element * std::size_t(n_points_); }
   const double *operator[](int element) const { return values_.data() + element * std::size_t(n_points_); }
@@ -36,10 +38,8 @@ struct State
 
   /// At rest in the reference configuration, intact: x = X, v = a = 0, phi = 1, H = 0.
   explicit State(const ShellSpace<degree, spacedim> &space)
-      : State(space,
-              std::make_shared<const Distribution>(space.environment().comm(),
-                                                   space.distribution().owned,
-                                                   space.distribution().ghosts))
+      : State(space, std::make_shared<const Distribution>(space.environment().comm(), space.distribution().owned,
+                                                          space.distribution().ghosts))
   {
     const auto X = space.surface().control_points();
     for (int a = 0; a < distribution->n_local(); ++a)
@@ -50,20 +50,25 @@ struct State
   }
 
   std::shared_ptr<const Distribution> distribution;
-  Vector                              position;      ///< x [length]
-  Vector                              velocity;      ///< v [length/time]
-  Vector                              acceleration;  ///< a [length/time^2]
-  Vector                              phase;         ///< phi
+  Vector                              position;       ///< x [length]
+  Vector                              velocity;       ///< v [length/time]
+  Vector                              acceleration;   ///< a [length/time^2]
+  Vector                              phase;          ///< phi
   Vector                              previous_phase; ///< phi one step earlier, for extrapolation
-  QuadratureField                     history;       ///< H of the last accepted step [energy/area]
-  double                              time = 0.;
+  QuadratureField                     history;        ///< H of the last accepted step [energy/area]
+  double                              time      = 0.;
   double                              step_size = 0.; ///< of the step that led here, 0 before the first
-  int                                 step = 0;       ///< number of accepted steps
+  int                                 step      = 0;  ///< number of accepted steps
 
 private:
   State(const ShellSpace<degree, spacedim> &space, std::shared_ptr<const Distribution> d)
-      : distribution(d), position(d, spacedim), velocity(d, spacedim), acceleration(d, spacedim), phase(d, 1),
-        previous_phase(d, 1), history(space.n_active_elements(), n_q)
+      : distribution(d),
+        position(d, spacedim),
+        velocity(d, spacedim),
+        acceleration(d, spacedim),
+        phase(d, 1),
+        previous_phase(d, 1),
+        history(space.n_active_elements(), n_q)
   {
   }
 };

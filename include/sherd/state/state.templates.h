@@ -26,20 +26,20 @@ void scatter_rows(const ControlValues<n> &rows, Vector &v)
 template <int degree, int spacedim>
 GlobalState<degree, spacedim> gather(const State<degree, spacedim> &state, const ShellSpace<degree, spacedim> &space)
 {
-  using Global           = GlobalState<degree, spacedim>;
-  constexpr int n_q      = Global::n_q;
-  const auto   &d        = space.distribution();
+  using Global             = GlobalState<degree, spacedim>;
+  constexpr int n_q        = Global::n_q;
+  const auto   &d          = space.distribution();
   const int     n_elements = space.surface().n_elements();
 
   Global global;
-  global.position     = internal::gather_rows<spacedim>(state.position);
-  global.velocity     = internal::gather_rows<spacedim>(state.velocity);
-  global.acceleration = internal::gather_rows<spacedim>(state.acceleration);
-  global.phase        = internal::gather_rows<1>(state.phase);
+  global.position       = internal::gather_rows<spacedim>(state.position);
+  global.velocity       = internal::gather_rows<spacedim>(state.velocity);
+  global.acceleration   = internal::gather_rows<spacedim>(state.acceleration);
+  global.phase          = internal::gather_rows<1>(state.phase);
   global.previous_phase = internal::gather_rows<1>(state.previous_phase);
-  global.time         = state.time;
-  global.step_size    = state.step_size;
-  global.step         = state.step;
+  global.time           = state.time;
+  global.step_size      = state.step_size;
+  global.step           = state.step;
 
   // Every element has one owner; the others add zero.
   global.history = Global::History::Zero(n_elements, n_q);

@@ -23,8 +23,8 @@ std::vector<Box> element_boxes(const Surface<degree, spacedim> &surface)
 /// For each quadrature point of the interval [child_min, child_max] the nearest one of the interval that contains it,
 /// shape=(degree+1). At equal distance the one further from the centre of the parent, so that mirrored children agree.
 template <int degree>
-std::array<int, degree + 1>
-nearest_quadrature_points(double parent_min, double parent_max, double child_min, double child_max)
+std::array<int, degree + 1> nearest_quadrature_points(double parent_min, double parent_max, double child_min,
+                                                      double child_max)
 {
   const auto                 &gauss = gauss_legendre(degree + 1);
   std::array<int, degree + 1> nearest;
@@ -51,17 +51,15 @@ nearest_quadrature_points(double parent_min, double parent_max, double child_min
 ///
 /// Source: theory D (transfer on refinement), F.4 3.
 template <int degree, int spacedim>
-GlobalState<degree, spacedim> transfer(const GlobalState<degree, spacedim> &old,
-                                       const std::vector<Box>              &boxes,
-                                       const SurfaceRefinement             &refinement,
-                                       const Surface<degree, spacedim>     &surface)
+GlobalState<degree, spacedim> transfer(const GlobalState<degree, spacedim> &old, const std::vector<Box> &boxes,
+                                       const SurfaceRefinement &refinement, const Surface<degree, spacedim> &surface)
 {
-  using Global   = GlobalState<degree, spacedim>;
-  Global result  = old;
-  result.position     = refinement.transfer.apply(old.position);
-  result.velocity     = refinement.transfer.apply(old.velocity);
-  result.acceleration = refinement.transfer.apply(old.acceleration);
-  result.phase        = refinement.transfer.apply(old.phase);
+  using Global          = GlobalState<degree, spacedim>;
+  Global result         = old;
+  result.position       = refinement.transfer.apply(old.position);
+  result.velocity       = refinement.transfer.apply(old.velocity);
+  result.acceleration   = refinement.transfer.apply(old.acceleration);
+  result.phase          = refinement.transfer.apply(old.phase);
   result.previous_phase = refinement.transfer.apply(old.previous_phase);
 
   const auto children = element_boxes(surface);

@@ -29,8 +29,11 @@ struct Stage
 /// stage(dt, previous_dt): previous_dt = dt in the first step. Integrators stay out of kernels, which see only levels
 /// and the mass weight.
 template <class Rule>
-concept TimeIntegrator = requires(const Rule &rule, double dt) {
-  { rule.stage(dt, dt) } -> std::same_as<Stage>;
+concept TimeIntegrator = requires(const Rule &rule, double dt)
+{
+  {
+    rule.stage(dt, dt)
+    } -> std::same_as<Stage>;
 };
 
 } // namespace sherd

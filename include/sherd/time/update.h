@@ -18,9 +18,9 @@ struct Motion
 /// from the update formula. Source: theory F.2.
 inline Motion predict(const Stage &stage, const Motion &old)
 {
-  Motion     next = old;
-  const auto a    = old.acceleration.local();
-  const auto v    = old.velocity.local();
+  Motion     next  = old;
+  const auto a     = old.acceleration.local();
+  const auto v     = old.velocity.local();
   const auto ratio = (stage.gamma - 1.) / stage.gamma;
   for (std::size_t i = 0; i < a.size(); ++i)
     {

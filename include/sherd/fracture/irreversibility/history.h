@@ -15,7 +15,7 @@ struct History
     // The last case is that of a value that is no number: it must not vanish in the comparison.
     return energy > accepted ? energy : energy <= accepted ? accepted : energy + accepted;
   }
-  bool   is_loading(const double accepted, const double energy) const { return energy > accepted; }
+  bool is_loading(const double accepted, const double energy) const { return energy > accepted; }
 };
 
 static_assert(Irreversibility<History>);
