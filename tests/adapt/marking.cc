@@ -38,7 +38,9 @@ struct Plate
   template <class Degradation = degradation::Cubic>
   Triggers<2> triggers() const
   {
-    return find_triggers(glass<Degradation>(), space, state, target, settings);
+    const auto                                     model = glass<Degradation>();
+    const Assembler<std::decay_t<decltype(model)>> assembler(model, space, state.distribution);
+    return find_triggers(assembler, state, target, settings);
   }
 };
 

@@ -36,7 +36,7 @@ std::vector<double> all_results(const Body &body)
   body.assembler.force(body.level(), body.state.history, f);
   result.insert(result.end(), f.owned().begin(), f.owned().end());
   const auto e = body.energies();
-  result.insert(result.end(), {e.active, e.passive, e.kinetic, e.fracture, e.withheld, e.intensity});
+  result.insert(result.end(), {e.active, e.passive, e.kinetic, e.fracture, e.withheld});
   const auto history = body.assembler.committed(body.level(), body.state.history);
   for (int k = 0; k < body.space.n_active_elements(); ++k)
     result.insert(result.end(), history[k], history[k] + 9);
@@ -101,7 +101,6 @@ TEST_CASE("The number of ranks changes nothing but rounding")
   CHECK(a.kinetic == Approx(b.kinetic).epsilon(1e-13));
   CHECK(a.fracture == Approx(b.fracture).epsilon(1e-13));
   CHECK(a.withheld == Approx(b.withheld).epsilon(1e-13));
-  CHECK(a.intensity == b.intensity);
   CHECK(everywhere.assembler.shortest_edge() == here.assembler.shortest_edge());
 
   const auto committed = [](Body &body) {
@@ -128,7 +127,6 @@ TEST_CASE("A rank without control points takes part")
   CHECK((body.force() - here.force()).cwiseAbs().maxCoeff() < 1e-14);
   CHECK((body.loads(some_loads()) - here.loads(some_loads())).cwiseAbs().maxCoeff() < 1e-14);
   CHECK(body.energies().active == Approx(here.energies().active).epsilon(1e-14));
-  CHECK(body.energies().intensity == here.energies().intensity);
   CHECK(gather(body.state, body.space).history == state.history);
   CHECK(body.assembler.shortest_edge() == here.assembler.shortest_edge());
 }

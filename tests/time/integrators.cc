@@ -180,15 +180,31 @@ TEST_CASE("The predictor keeps the velocity and obeys the update formulas")
     }
   const Stage stage     = GeneralizedAlpha(.3).stage(.2, .5);
   const auto  predicted = predict(stage, old);
-  auto        again     = predicted;
-  update_rates(stage, old, again);
+  auto        moved     = predicted;
   for (int i = 0; i < 4; ++i)
-    {
-      CHECK(predicted.velocity.local()[i] == old.velocity.local()[i]);
-      // a_{n+1} and v_{n+1} that belong to the predicted position are the predicted ones.
-      CHECK(again.acceleration.local()[i] == Approx(predicted.acceleration.local()[i]).margin(1e-13));
-      CHECK(again.velocity.local()[i] == Approx(old.velocity.local()[i]).margin(1e-13));
-    }
+    move(stage, moved, i, .01 * (i + 1));
+  // Both obey x_{n+1} = x_n + dt v_n + dt^2 [(1/2 - beta) a_n + beta a_{n+1}] and the same for v.
+  for (const Motion *next : {&predicted, static_cast<const Motion *>(&moved)})
+    for (int i = 0; i < 4; ++i)
+      {
+        const double x = old.position.local()[i], v = old.velocity.local()[i], a = old.acceleration.local()[i];
+        const double a1 = next->acceleration.local()[i];
+        CHECK(next->position.local()[i] ==
+              Approx(x + .2 * v + .04 * ((.5 - stage.beta) * a + stage.beta * a1)).margin(1e-13));
+        CHECK(next->velocity.local()[i] == Approx(v + .2 * ((1. - stage.gamma) * a + stage.gamma * a1)).margin(1e-13));
+      }
+  for (int i = 0; i < 4; ++i)
+    CHECK(predicted.velocity.local()[i] == old.velocity.local()[i]);
+}
+
+TEST_CASE("Rates keep their digits however small the step is")
+{
+  // x = 1 has an absolute precision of 1e-16; divided by dt^2 = 1e-20 the difference x_{n+1} - x_n would say nothing.
+  const Oscillator oscillator{.omega2 = 1.};
+  const double     dt  = 1e-10;
+  const auto       end = oscillator.run(GeneralizedAlpha(.5), std::vector<double>(5, dt), 1., .5);
+  CHECK(end.acceleration.local()[0] == Approx(-1.).epsilon(1e-8));
+  CHECK(end.velocity.local()[0] == Approx(.5 - 5. * dt).epsilon(1e-14));
 }
 
 TEST_CASE("Motion under constant acceleration is exact, whatever the steps do")
@@ -206,9 +222,9 @@ TEST_CASE("Motion under constant acceleration is exact, whatever the steps do")
       const auto stage = GeneralizedAlpha(rho).stage(dt, previous);
       Motion     next  = predict(stage, m);
       // a_{n+1} = 1 balances a constant force; x from the update formula.
-      next.position.local()[0] =
+      const double x =
           m.position.local()[0] + dt * m.velocity.local()[0] + dt * dt * ((.5 - stage.beta) * 1. + stage.beta * 1.);
-      update_rates(stage, m, next);
+      move(stage, next, 0, x - next.position.local()[0]);
       m = next;
       t += dt;
       previous = dt;

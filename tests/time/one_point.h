@@ -47,9 +47,8 @@ struct Oscillator
   Motion step(const Stage &stage, const Motion &old, double time) const
   {
     Motion     next     = predict(stage, old);
-    const auto residual = [&](double x) {
-      next.position.local()[0] = x;
-      update_rates(stage, old, next);
+    const auto residual = [&](double dx) {
+      move(stage, next, 0, dx);
       const auto level = [&](double alpha, const Vector &a, const Vector &b) {
         return interpolate(alpha, a, b).local()[0];
       };
@@ -57,10 +56,10 @@ struct Oscillator
              force(level(stage.alpha_f, old.position, next.position), level(stage.alpha_f, old.velocity, next.velocity),
                    time + stage.alpha_f * stage.dt);
     };
-    const double start = next.position.local()[0];
-    const double r0    = residual(start);
-    const double slope = residual(start + 1.) - r0;
-    residual(start - r0 / slope);
+    const double dx    = stage.dt * stage.dt;
+    const double r0    = residual(0.);
+    const double slope = (residual(dx) - r0) / dx;
+    residual(-dx - r0 / slope);
     return next;
   }
 };

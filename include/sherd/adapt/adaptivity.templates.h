@@ -116,11 +116,13 @@ StepSummary Adaptivity<Model>::advance(Solver &solver, SurfaceType &surface, Spa
         {
           ++summary.rejected;
           summary.messages.push_back("rejected: " + result.failure);
-          controller.reject(result.failure, dt);
+          controller.reject(summary.rejected == 1 ? result.failure
+                                                  : result.failure + " (at first " + summary.messages.front() + ")",
+                            dt);
           continue;
         }
 
-      const auto triggers = find_triggers(solver.model(), space, *result.state, target_, settings_);
+      const auto triggers = find_triggers(solver.assembler(), *result.state, target_, settings_);
       if (!triggers.empty() && triggers.smallest_phase < settings_.recompute_phase)
         {
           refine(solver, surface, space, state, triggers);

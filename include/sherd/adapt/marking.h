@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include <sherd/assembly/assembler.h>
 #include <sherd/base/all_gather.h>
 #include <sherd/base/parameter_section.h>
-#include <sherd/fracture/branch.h>
 #include <sherd/geometry/element_geometry.h>
 #include <sherd/state/state.h>
 
@@ -103,10 +103,11 @@ struct Triggers
 /// Coarse functions with a control value below the threshold, and those on elements whose history is close to the
 /// onset of damage. Collective; the same on all ranks.
 template <class Model>
-Triggers<Model::spacedim> find_triggers(const Model &model, const ShellSpace<Model::degree, Model::spacedim> &space,
+Triggers<Model::spacedim> find_triggers(const Assembler<Model>                      &assembler,
                                         const State<Model::degree, Model::spacedim> &state, const SpanTarget &target,
                                         const RefinementSettings &settings)
 {
+  const auto &space   = assembler.space();
   const auto &surface = space.surface();
   const auto &d       = space.distribution();
 
@@ -119,20 +120,15 @@ Triggers<Model::spacedim> find_triggers(const Model &model, const ShellSpace<Mod
   for (std::size_t a = 0; a < d.owned.size(); ++a)
     if (state.phase.local()[a] < settings.phase && coarse(static_cast<int>(d.owned[a])))
       marked.push_back(static_cast<int>(d.owned[a]));
+  const auto intensity = assembler.intensity(state.history);
   for (int e = 0; e < space.n_active_elements(); ++e)
-    {
-      const double *H    = state.history[e];
-      const double  peak = *std::max_element(H, H + state.n_q);
-      if (peak == 0.)
-        continue;
-      const auto [p, local]                  = surface.locate_element(d.elements[e]);
-      const auto                   functions = surface.patch(p).basis.functions_of(local);
-      const Point<Model::spacedim> X = surface.patch(p).control_points.row(functions[functions.size() / 2]).transpose();
-      if (peak > settings.history_fraction * branch::onset(model.degradation, model.toughness(X), model.length_scale))
-        for (const int i : functions)
+    if (intensity[e] > settings.history_fraction)
+      {
+        const auto [p, local] = surface.locate_element(d.elements[e]);
+        for (const int i : surface.patch(p).basis.functions_of(local))
           if (is_coarse(surface.patch(p).basis.function(i), target))
             marked.push_back(surface.point_offset(p) + i);
-    }
+      }
   marked = all_gather(space.environment().comm(), marked);
   std::sort(marked.begin(), marked.end());
   marked.erase(std::unique(marked.begin(), marked.end()), marked.end());

@@ -83,6 +83,9 @@ public:
   /// The history after a step: max(H, Psi+) of the level, by the irreversibility rule of the model.
   QuadratureField committed(const BalanceLevel &level, const QuadratureField &history) const;
 
+  /// Largest H over the onset of damage (theory C.2) at a quadrature point of each active element, shape=(n_active).
+  std::vector<double> intensity(const QuadratureField &history) const;
+
   /// Elements with suspect quadrature points, theory C.2 1. Local.
   SuspectElements suspects(const BalanceLevel &level, const QuadratureField &history) const;
 

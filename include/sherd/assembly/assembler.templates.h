@@ -306,8 +306,7 @@ Energies Assembler<Model>::energies(const Vector &position, const Vector &veloci
     sum += energies;
   double values[] = {sum.active, sum.passive, sum.kinetic, sum.fracture, sum.withheld};
   MPI_Allreduce(MPI_IN_PLACE, values, 5, MPI_DOUBLE, MPI_SUM, distribution_->comm());
-  MPI_Allreduce(MPI_IN_PLACE, &sum.intensity, 1, MPI_DOUBLE, MPI_MAX, distribution_->comm());
-  return {values[0], values[1], values[2], values[3], values[4], sum.intensity};
+  return {values[0], values[1], values[2], values[3], values[4]};
 }
 
 template <class Model>
@@ -322,6 +321,17 @@ QuadratureField Assembler<Model>::committed(const BalanceLevel &level, const Qua
       for (int q = 0; q < n_q; ++q)
         result[e][q] = model_->irreversibility.trial(history[e][q], energy[q]);
     }
+  return result;
+}
+
+template <class Model>
+std::vector<double> Assembler<Model>::intensity(const QuadratureField &history) const
+{
+  std::vector<double> result(elements_.size(), 0.);
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    for (int q = 0; q < n_q; ++q)
+      result[e] = std::max(result[e], history[e][q] / branch::onset(model_->degradation, elements_[e].toughness[q],
+                                                                    model_->length_scale));
   return result;
 }
 

@@ -13,7 +13,6 @@ struct Energies
   double kinetic   = 0.; ///< int rho v.v / 2 dA
   double fracture  = 0.; ///< int Psi_frac dA
   double withheld  = 0.; ///< int g'(phi) (H - Psi+) dphi dA over the step, the work that the history withholds
-  double intensity = 0.; ///< largest H / onset density at a quadrature point, dimensionless: 1 where damage starts
 
   double elastic() const { return active + passive; }
 
@@ -24,7 +23,6 @@ struct Energies
     kinetic += other.kinetic;
     fracture += other.fracture;
     withheld += other.withheld;
-    intensity = std::max(intensity, other.intensity);
     return *this;
   }
 };
@@ -59,7 +57,6 @@ Energies element_energies(const Model &model, const ElementData<Model> &data, co
       sum.fracture += reference.dA * crack_energy(model.crack_density, Gc, l0, p.phi, gradient, p.laplacian);
       sum.withheld += reference.dA * model.degradation.first(.5 * (before + p.phi)) *
                       (history[q] - p.response.energy_active) * (p.phi - before);
-      sum.intensity = std::max(sum.intensity, history[q] / branch::onset(model.degradation, Gc, l0));
     }
   return sum;
 }

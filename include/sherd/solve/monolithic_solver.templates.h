@@ -48,7 +48,6 @@ struct MonolithicSolver<Model, Integrator>::System
 
   void update_levels()
   {
-    update_rates(stage, old, next);
     position     = interpolate(stage.alpha_f, old.position, next.position);
     acceleration = interpolate(stage.alpha_m, old.acceleration, next.acceleration);
   }
@@ -68,7 +67,7 @@ struct MonolithicSolver<Model, Integrator>::System
     for (std::size_t a = 0; a < n; ++a)
       {
         for (int c = 0; c < spacedim; ++c)
-          next.position.local()[a * spacedim + c] += d[a * n_fields + c] / stage.alpha_f;
+          move(stage, next, a * spacedim + c, d[a * n_fields + c] / stage.alpha_f);
         phase.local()[a] += scale * d[a * n_fields + spacedim];
       }
     update_levels();
@@ -299,7 +298,10 @@ MonolithicSolver<Model, Integrator>::attempt(const StateType &state, double dt)
   const Motion old{state.position, state.velocity, state.acceleration};
   Motion       next = predict(stage, old);
   for (const auto &c : constraints_)
-    next.position.local()[c.point * spacedim + c.component] = supported_position(c, state.time + dt);
+    {
+      const int i = c.point * spacedim + c.component;
+      move(stage, next, i, supported_position(c, state.time + dt) - next.position.local()[i]);
+    }
 
   Vector phase = state.phase;
   for (std::size_t a = 0; a < phase.local().size(); ++a)

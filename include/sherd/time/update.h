@@ -30,22 +30,17 @@ inline Motion predict(const Stage &stage, const Motion &old)
   return next;
 }
 
-/// Velocity and acceleration of x_{n+1}:
-///   a_{n+1} = (x_{n+1} - x_n - dt v_n)/(beta dt^2) - (1 - 2 beta)/(2 beta) a_n,
-///   v_{n+1} = v_n + dt [(1 - gamma) a_n + gamma a_{n+1}].
-/// Source: theory F.2.
-inline void update_rates(const Stage &stage, const Motion &old, Motion &next)
+/// Moves unknown @p i of the end of the step by @p dx, and its rates with it:
+///   x_{n+1} += dx,  a_{n+1} += dx / (beta dt^2),  v_{n+1} += gamma dx / (beta dt).
+///
+/// From the predictor on this keeps the update formulas of Stage. The rates follow the increments and not the
+/// difference x_{n+1} - x_n, which for small steps has no digits left: rounding of x, divided by dt^2, would exceed any
+/// tolerance. Source: theory F.2.
+inline void move(const Stage &stage, Motion &next, std::size_t i, double dx)
 {
-  const auto   x0 = old.position.local(), v0 = old.velocity.local(), a0 = old.acceleration.local();
-  const auto   x1 = next.position.local();
-  auto         v1 = next.velocity.local(), a1 = next.acceleration.local();
-  const double inverse = 1. / (stage.beta * stage.dt * stage.dt);
-  const double keep    = (1. - 2. * stage.beta) / (2. * stage.beta);
-  for (std::size_t i = 0; i < x1.size(); ++i)
-    {
-      a1[i] = (x1[i] - x0[i] - stage.dt * v0[i]) * inverse - keep * a0[i];
-      v1[i] = v0[i] + stage.dt * ((1. - stage.gamma) * a0[i] + stage.gamma * a1[i]);
-    }
+  next.position.local()[i] += dx;
+  next.acceleration.local()[i] += dx / (stage.beta * stage.dt * stage.dt);
+  next.velocity.local()[i] += stage.gamma * dx / (stage.beta * stage.dt);
 }
 
 /// (1 - alpha) y_n + alpha y_{n+1}.
