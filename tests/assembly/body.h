@@ -52,10 +52,10 @@ struct Body
     return on_all_ranks(f);
   }
 
-  Energies energies() const
-  {
-    return assembler.energies(state.position, state.velocity, state.phase, state.previous_phase, state.history);
-  }
+  Energies energies() const { return assembler.energies(state.position, state.velocity, state.phase); }
+
+  /// Work withheld if the state were a step from its previous phase, with its history.
+  double withheld_work() const { return assembler.withheld_work(level(), state.previous_phase, state.history); }
 
   static ControlValues<3> on_all_ranks(const Vector &f)
   {

@@ -151,17 +151,21 @@ public:
     return result;
   }
 
-  Energies energies(const Eigen::VectorXd &y, const Eigen::VectorXd &velocity, const Eigen::VectorXd &before,
-                    const History &history) const
+  Energies energies(const Eigen::VectorXd &y, const Eigen::VectorXd &velocity) const
   {
-    const auto previous = fields(before);
-    return element_energies(model, data, fields(y, velocity), previous.phase, history.data());
+    return element_energies(model, data, fields(y, velocity));
+  }
+
+  /// Work withheld in a step from the phase of @p before to that of @p y.
+  double withheld_work(const Eigen::VectorXd &y, const Eigen::VectorXd &before, const History &history) const
+  {
+    return element_withheld_work(model, data, fields(y), fields(before).phase, history.data());
   }
 
   /// Elastic and fracture energy.
   double energy(const Eigen::VectorXd &y) const
   {
-    const auto e = energies(y, Eigen::VectorXd::Zero(y.size()), y, {});
+    const auto e = energies(y, Eigen::VectorXd::Zero(y.size()));
     return e.elastic() + e.fracture;
   }
 

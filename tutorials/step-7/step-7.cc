@@ -142,7 +142,7 @@ void break_plate(const Environment &env, const step_7::Parameters &prm)
 
   directory.prepare();
   write_parameters(env, directory.file("used.yaml"), prm);
-  RunRecorder<2, 2> recorder(env, directory, plate, solver.energies(state, state.phase),
+  RunRecorder<2, 2> recorder(env, directory, plate, solver.energies(state),
                              {.crack    = {.length_scale   = material.length_scale,
                                            .rayleigh_speed = solver.rayleigh_speed(),
                                            .target_size    = prm.refinement.target},

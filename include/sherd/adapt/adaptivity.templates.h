@@ -140,10 +140,11 @@ StepSummary Adaptivity<Model>::advance(Solver &solver, SurfaceType &surface, Spa
       summary.dt            = dt;
       summary.newton        = result.newton;
       summary.external_work = result.external_work;
+      summary.withheld_work = result.withheld_work;
       summary.largest_phase = result.largest_phase;
       {
         const auto timing = solver.timers().measure("energies");
-        summary.energies  = solver.energies(state, state.previous_phase);
+        summary.energies  = solver.energies(state);
       }
       if (triggers.empty())
         controller.accept(result.newton);

@@ -76,9 +76,12 @@ public:
   /// External forces at @p time added to the displacement part of @p force, block n_fields.
   void add_loads(const Loads<spacedim> &loads, double time, Vector &force) const;
 
-  /// Energies at the end of a step that began at phase @p previous, summed over ranks. Collective.
-  Energies energies(const Vector &position, const Vector &velocity, const Vector &phase, const Vector &previous,
-                    const QuadratureField &history) const;
+  /// Energies of a state, summed over ranks. Collective.
+  Energies energies(const Vector &position, const Vector &velocity, const Vector &phase) const;
+
+  /// Work that the history withholds in a step from phase @p previous to the level's, summed over ranks (theory D).
+  /// @p history is that of the end of the step, committed(level, ...). Collective.
+  double withheld_work(const BalanceLevel &level, const Vector &previous, const QuadratureField &history) const;
 
   /// The history after a step: max(H, Psi+) of the level, by the irreversibility rule of the model.
   QuadratureField committed(const BalanceLevel &level, const QuadratureField &history) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <numeric>
 
 #include <omp.h>
 
@@ -288,25 +289,39 @@ void Assembler<Model>::add_loads(const Loads<spacedim> &loads, double time, Vect
 }
 
 template <class Model>
-Energies Assembler<Model>::energies(const Vector &position, const Vector &velocity, const Vector &phase,
-                                    const Vector &previous, const QuadratureField &history) const
+Energies Assembler<Model>::energies(const Vector &position, const Vector &velocity, const Vector &phase) const
 {
   const auto           &owns = space_->distribution().owns;
   std::vector<Energies> part(elements_.size());
 #pragma omp parallel for schedule(static)
   for (std::size_t e = 0; e < elements_.size(); ++e)
     if (owns[e])
-      {
-        const auto f      = fields(static_cast<int>(e), position, velocity, phase);
-        const auto before = fields(static_cast<int>(e), position, velocity, previous);
-        part[e]           = element_energies(*model_, elements_[e], f, before.phase, history[e]);
-      }
+      part[e] = element_energies(*model_, elements_[e], fields(static_cast<int>(e), position, velocity, phase));
   Energies sum;
   for (const auto &energies : part)
     sum += energies;
-  double values[] = {sum.active, sum.passive, sum.kinetic, sum.fracture, sum.withheld};
-  MPI_Allreduce(MPI_IN_PLACE, values, 5, MPI_DOUBLE, MPI_SUM, distribution_->comm());
-  return {values[0], values[1], values[2], values[3], values[4]};
+  double values[] = {sum.active, sum.passive, sum.kinetic, sum.fracture};
+  MPI_Allreduce(MPI_IN_PLACE, values, 4, MPI_DOUBLE, MPI_SUM, distribution_->comm());
+  return {values[0], values[1], values[2], values[3]};
+}
+
+template <class Model>
+double Assembler<Model>::withheld_work(const BalanceLevel &level, const Vector &previous,
+                                       const QuadratureField &history) const
+{
+  const auto         &owns = space_->distribution().owns;
+  std::vector<double> part(elements_.size(), 0.);
+#pragma omp parallel for schedule(static)
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    if (owns[e])
+      {
+        const auto now    = fields(static_cast<int>(e), level.position, level.acceleration, level.phase);
+        const auto before = fields(static_cast<int>(e), level.position, level.acceleration, previous);
+        part[e]           = element_withheld_work(*model_, elements_[e], now, before.phase, history[e]);
+      }
+  double sum = std::accumulate(part.begin(), part.end(), 0.);
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, distribution_->comm());
+  return sum;
 }
 
 template <class Model>
@@ -364,12 +379,11 @@ std::vector<typename Assembler<Model>::ElementDensities> Assembler<Model>::densi
                                                                                      const Vector &phase) const
 {
   std::vector<ElementDensities> result;
-  const std::vector<double>     zero(n_q, 0.);
   for (std::size_t e = 0; e < elements_.size(); ++e)
     if (space_->distribution().owns[e])
       {
         const auto f    = fields(static_cast<int>(e), position, position, phase);
-        const auto sum  = element_energies(*model_, elements_[e], f, f.phase, zero.data());
+        const auto sum  = element_energies(*model_, elements_[e], f);
         double     area = 0.;
         for (const auto &q : elements_[e].geometry.reference)
           area += q.dA;

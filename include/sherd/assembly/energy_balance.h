@@ -30,7 +30,7 @@ public:
   {
     now_ = step.energies;
     work_ += step.external_work;
-    irreversible_ += step.energies.withheld;
+    irreversible_ += step.withheld_work;
     note_largest();
   }
 

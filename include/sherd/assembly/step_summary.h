@@ -20,6 +20,7 @@ struct StepSummary
   int                      switched      = 0;  ///< branch switches
   int                      refined       = 0;  ///< refinements of the mesh
   double                   external_work = 0.; ///< over the step [energy]
+  double                   withheld_work = 0.; ///< by the history over the step [energy]
   double                   largest_phase = 0.;
   Energies                 energies; ///< at the end of the step, before a refinement
   std::vector<std::string> messages; ///< rejections and escalations, one line each

@@ -27,6 +27,7 @@ struct StepResult
   int                                    linear        = 0;  ///< linear iterations, all together
   int                                    switched      = 0;  ///< branch switches (theory C.2 2)
   double                                 external_work = 0.; ///< by loads and supports over the step [energy]
+  double                                 withheld_work = 0.; ///< by the history over the step [energy], theory D
   double                                 largest_phase = 0.; ///< at a quadrature point
   std::vector<double>                    residuals; ///< |r_u| and |r_phi| relative to their tolerances, larger one
   std::vector<std::string>               messages;  ///< escalations of the linear solver, one line each
@@ -71,10 +72,10 @@ public:
   /// Attempts the step from @p state to state.time + dt. Collective. Throws only what no smaller step could mend.
   Result attempt(const StateType &state, double dt);
 
-  /// Energies at the end of a step that began at phase @p previous. Collective.
-  Energies energies(const StateType &state, const Vector &previous) const
+  /// Energies of @p state. Collective.
+  Energies energies(const StateType &state) const
   {
-    return assembler_->energies(state.position, state.velocity, state.phase, previous, state.history);
+    return assembler_->energies(state.position, state.velocity, state.phase);
   }
 
   /// Sum of the internal and inertial forces on a named edge, at the end of the last attempted step: what its supports

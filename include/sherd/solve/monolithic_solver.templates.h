@@ -322,6 +322,7 @@ MonolithicSolver<Model, Integrator>::attempt(const StateType &state, double dt)
   accepted.previous_phase = state.phase;
   accepted.phase          = system.phase;
   accepted.history        = assembler_->committed(system.level(), state.history);
+  result.withheld_work    = assembler_->withheld_work(system.level(), state.phase, accepted.history);
   accepted.time           = state.time + dt;
   accepted.step_size      = dt;
   accepted.step           = state.step + 1;
