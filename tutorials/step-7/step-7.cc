@@ -151,15 +151,24 @@ void break_plate(const Environment &env, const step_7::Parameters &prm)
                               .points   = {{"upper_corner", {prm.plate.size[0], prm.plate.size[1]}}},
                               .edges    = {"top", "bottom"}});
   recorder.start(solver, space, state);
-  while (state.time < prm.time.end)
+  try
     {
-      const auto step = adaptivity.advance(solver, plate, space, state, controller, prm.time.end);
-      recorder.record(solver, space, state, step);
-      if (const auto reason = stop_requested(env))
+      while (state.time < prm.time.end)
         {
-          recorder.finish(solver, "stopped early: " + *reason);
-          throw StoppedEarly("stopped at t = " + print(state.time) + " s: " + *reason);
+          const auto step = adaptivity.advance(solver, plate, space, state, controller, prm.time.end);
+          recorder.record(solver, space, state, step);
+          if (const auto reason = stop_requested(env))
+            {
+              recorder.finish(solver, *reason);
+              throw StoppedEarly("stopped at t = " + print(state.time) + " s: " + *reason);
+            }
         }
+    }
+  catch (const NoConvergence &error)
+    {
+      // All ranks fail together, and what is known so far is worth a summary.
+      recorder.finish(solver, error.what());
+      throw;
     }
   recorder.finish(solver, "done");
 }
