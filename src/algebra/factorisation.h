@@ -32,7 +32,20 @@ std::unique_ptr<Factorisation> make_point_block_ilu(int fill_level, int overlap)
 /// RILUK of Ifpack2, on several ranks inside its additive Schwarz preconditioner.
 std::unique_ptr<Factorisation> make_ifpack2_ilu(int fill_level, int overlap);
 
-/// MUMPS, unsymmetric, ordered by nested dissection of the graph of control points (METIS).
+/// MUMPS, unsymmetric (L U), ordered by nested dissection of the graph of control points (METIS). compute() throws
+/// NoConvergence if pivots vanish to rounding: such factors would solve nothing, or anything.
 std::unique_ptr<Factorisation> make_mumps();
+
+/// Factors of a symmetric matrix that tell its inertia.
+class SymmetricFactorisation : public Factorisation
+{
+public:
+  /// Number of negative eigenvalues of the matrix (Sylvester's law of inertia).
+  virtual int n_negative() const = 0;
+};
+
+/// The same for symmetric, possibly indefinite matrices (L D L^T); of each pair of entries it takes the one whose
+/// global row is not larger than its column.
+std::unique_ptr<SymmetricFactorisation> make_symmetric_mumps();
 
 } // namespace sherd

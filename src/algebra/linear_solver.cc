@@ -87,6 +87,9 @@ void check(const LinearSolverSettings &settings)
   require(settings.retry_interval >= 1, "retry_interval", settings.retry_interval, "at least 1");
 }
 
+/// A direct solver that makes vectors larger than this factor and misses the tolerance has met a singular matrix.
+constexpr double nearly_singular = 1e12;
+
 /// Adds the seconds it lives to a sum.
 class Stopwatch
 {
@@ -125,6 +128,9 @@ public:
 
   /// Residual relative to where it started.
   double relative_residual() const { return initial_norm_ > 0. ? norm_ / initial_norm_ : 0.; }
+
+  /// How much larger a correction is than the residual.
+  double amplification(std::span<const double> correction) const { return norm_of(correction) / norm_; }
 
   /// Takes a correction unless it makes the residual larger or meaningless; tells whether it was taken.
   bool take(std::span<const double> correction)
@@ -209,6 +215,7 @@ struct LinearSolver::Impl
   std::shared_ptr<const SparseGraph> factors_graph;        ///< the matrix they belong to had this graph
   int                                fresh_iterations = 0; ///< of the solve they were made for
   bool                               keep_factors     = false;
+  bool                               own_factors      = false; ///< made for the matrix that is being solved
 
   /// Makes factors of the stage for this matrix; says why if they break down.
   std::string factor(std::size_t stage, const Matrix &matrix, SolveReport &report);
@@ -218,10 +225,15 @@ struct LinearSolver::Impl
 
   /// Uses one preconditioner until the tolerance is met or it has to be given up; returns what happened in words.
   std::string attempt(std::size_t stage, const Matrix &matrix, Progress &progress, SolveReport &report);
+
+  /// Attempts one stage after the other from first_stage on, which becomes the one that met the tolerance; returns what
+  /// happened in words, nothing if there was nothing to do. Throws NoConvergence.
+  std::string climb(const Matrix &matrix, Progress &progress, SolveReport &report);
 };
 
 std::string LinearSolver::Impl::factor(std::size_t stage, const Matrix &matrix, SolveReport &report)
 {
+  own_factors = false;
   try
     {
       const Stopwatch stopwatch(report.setup_seconds);
@@ -233,6 +245,7 @@ std::string LinearSolver::Impl::factor(std::size_t stage, const Matrix &matrix, 
         }
       factors->compute(matrix);
       factors_graph = matrix.shared_graph();
+      own_factors   = true;
     }
   catch (const NoConvergence &error)
     {
@@ -253,16 +266,21 @@ std::string LinearSolver::Impl::iterate(const Matrix &matrix, Progress &progress
   const Stopwatch     stopwatch(report.solve_seconds);
   std::string         failure;
   std::vector<double> correction(progress.residual().size());
-  bool                direct = factors->is_complete();
+  bool                direct        = factors->is_complete();
+  double              amplification = 0.; // of the complete factors
   while (failure.empty() && progress.relative_residual() > settings.tolerance)
     {
       if (direct)
         {
           factors->apply(progress.residual(), correction);
+          amplification = progress.amplification(correction);
           iterations += 1;
         }
       else if (iterations >= limit)
-        return "gave up";
+        {
+          failure = "gave up";
+          break;
+        }
       else
         {
           // Somewhat below the tolerance, so that the recomputed residual meets it in spite of rounding.
@@ -280,6 +298,14 @@ std::string LinearSolver::Impl::iterate(const Matrix &matrix, Progress &progress
         failure = "stagnated";
       direct = false;
     }
+  if (!failure.empty() && amplification > nearly_singular)
+    {
+      std::ostringstream text;
+      text << " (the matrix is nearly singular, its solution is " << amplification
+           << " times the right-hand side, both equilibrated; a static body may lack supports, or the load is near a "
+              "limit or bifurcation point: add supports, or take another step)";
+      failure += text.str();
+    }
   return failure;
 }
 
@@ -290,7 +316,8 @@ std::string LinearSolver::Impl::attempt(std::size_t stage, const Matrix &matrix,
   int       iterations = 0;
 
   // Kept factors are no reason to escalate: where they do not do, fresh ones of the same kind go on from there.
-  const bool  kept = keep_factors && factors && factors_stage == stage && factors_graph == matrix.shared_graph();
+  const bool own  = own_factors && factors_stage == stage;
+  const bool kept = !own && keep_factors && factors && factors_stage == stage && factors_graph == matrix.shared_graph();
   std::string failure;
   if (kept)
     {
@@ -300,12 +327,12 @@ std::string LinearSolver::Impl::attempt(std::size_t stage, const Matrix &matrix,
     }
   if (!kept || !failure.empty())
     {
-      failure = factor(stage, matrix, report);
+      failure = own ? std::string() : factor(stage, matrix, report);
       if (!failure.empty())
         return failure;
       int fresh        = 0;
       failure          = iterate(matrix, progress, limit, report, fresh);
-      fresh_iterations = fresh;
+      fresh_iterations = own ? std::max(fresh_iterations, fresh) : fresh;
       iterations += fresh;
       keep_factors = settings.reuse > 0 && failure.empty() && !factors->is_complete();
     }
@@ -316,6 +343,27 @@ std::string LinearSolver::Impl::attempt(std::size_t stage, const Matrix &matrix,
        << (iterations == 1 ? " iteration" : " iterations") << " at a relative residual of "
        << progress.relative_residual();
   return text.str();
+}
+
+std::string LinearSolver::Impl::climb(const Matrix &matrix, Progress &progress, SolveReport &report)
+{
+  std::string history;
+  auto        stage = first_stage;
+  while (!(progress.relative_residual() <= settings.tolerance))
+    {
+      if (!history.empty())
+        ++stage;
+      if (stage == ladder.size())
+        {
+          std::ostringstream message;
+          message << "linear solver: tolerance " << settings.tolerance << " not met; " << history;
+          throw NoConvergence(message.str());
+        }
+      history +=
+          (history.empty() ? "" : "; ") + describe(ladder[stage]) + " " + attempt(stage, matrix, progress, report);
+    }
+  first_stage = stage;
+  return history;
 }
 
 LinearSolver::LinearSolver(LinearSolverSettings settings)
@@ -344,57 +392,58 @@ void LinearSolver::forget()
 
 SolveReport LinearSolver::solve(Matrix &matrix, const Vector &rhs, Vector &solution)
 {
-  const auto &distribution = matrix.distribution();
-  const int   block_size   = matrix.block_size();
-  for (const Vector *vector : {&rhs, static_cast<const Vector *>(&solution)})
-    if (vector->block_size() != block_size || vector->distribution().n_local() != distribution.n_local())
+  return solve(matrix, std::span(&rhs, 1), std::span(&solution, 1));
+}
+
+SolveReport LinearSolver::solve(Matrix &matrix, std::span<const Vector> rhs, std::span<Vector> solutions)
+{
+  if (rhs.size() != solutions.size())
+    throw DimensionMismatch("linear solver: " + std::to_string(rhs.size()) + " right-hand sides and " +
+                            std::to_string(solutions.size()) + " solutions, expected as many of both");
+  const auto check_size = [&](const Vector &vector) {
+    if (vector.block_size() != matrix.block_size() ||
+        vector.distribution().n_local() != matrix.distribution().n_local())
       throw DimensionMismatch(
           "linear solver: right-hand side and solution need the block size and the control points of the matrix");
+  };
+  std::for_each(rhs.begin(), rhs.end(), check_size);
+  std::for_each(solutions.begin(), solutions.end(), check_size);
 
   SolveReport report;
   const auto  equilibration = [&] {
     const Stopwatch stopwatch(report.setup_seconds);
-    check_finite(rhs);
+    std::for_each(rhs.begin(), rhs.end(), check_finite);
     return equilibrate(matrix);
   }();
-  Progress progress(matrix, equilibration, rhs);
 
-  auto &self = *impl_;
+  auto &self       = *impl_;
+  self.own_factors = false;
   if (self.first_stage > 0 && ++self.solves_since_escalation >= self.settings.retry_interval)
     {
       self.solves_since_escalation = 0;
       --self.first_stage;
     }
-  std::string history;
-  const auto  met   = [&] { return progress.relative_residual() <= self.settings.tolerance; };
-  std::size_t stage = self.first_stage;
-  if (!met())
-    for (;; ++stage)
-      {
-        history += (history.empty() ? "" : "; ") + describe(self.ladder[stage]) + " " +
-                   self.attempt(stage, matrix, progress, report);
-        if (met())
-          break;
-        if (stage + 1 == self.ladder.size())
-          {
-            std::ostringstream message;
-            message << "linear solver: tolerance " << self.settings.tolerance << " not met; " << history;
-            throw NoConvergence(message.str());
-          }
-      }
-  if (stage > self.first_stage)
+  const auto begun = self.first_stage;
+  for (std::size_t k = 0; k < rhs.size(); ++k)
+    {
+      Progress   progress(matrix, equilibration, rhs[k]);
+      const auto history = self.climb(matrix, progress, report);
+      if (!history.empty())
+        report.message += (report.message.empty() ? "" : "; ") +
+                          (rhs.size() > 1 ? "right-hand side " + std::to_string(k) + ": " : "") + history;
+      report.relative_residual = std::max(report.relative_residual, progress.relative_residual());
+      for (std::size_t i = 0; i < solutions[k].local().size(); ++i)
+        solutions[k].local()[i] = equilibration.scaling[i] * progress.solution()[i];
+    }
+  if (self.first_stage > begun)
     {
       self.solves_since_escalation = 0;
       report.escalated             = true;
     }
-  self.first_stage = stage;
-
-  report.relative_residual = progress.relative_residual();
-  report.used              = self.ladder[stage].preconditioner;
-  report.fill_level        = self.ladder[stage].fill_level;
-  report.message           = history.empty() ? "nothing to solve" : history;
-  for (std::size_t i = 0; i < solution.local().size(); ++i)
-    solution.local()[i] = equilibration.scaling[i] * progress.solution()[i];
+  report.used       = self.ladder[self.first_stage].preconditioner;
+  report.fill_level = self.ladder[self.first_stage].fill_level;
+  if (report.message.empty())
+    report.message = "nothing to solve";
   return report;
 }
 

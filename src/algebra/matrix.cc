@@ -69,6 +69,13 @@ Matrix::Matrix(std::shared_ptr<const Distribution> distribution, SparseGraph gra
   values_.assign(row_start(graph_->n_rows()), 0.);
 }
 
+std::size_t Matrix::diagonal_position(int A, int c) const
+{
+  const auto row   = graph_->row(A);
+  const auto block = std::lower_bound(row.begin(), row.end(), A) - row.begin();
+  return row_start(A) + static_cast<std::size_t>(c) * row_length(A) + block * block_size_ + c;
+}
+
 void Matrix::set_zero()
 {
   std::fill(values_.begin(), values_.end(), 0.);

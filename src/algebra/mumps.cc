@@ -24,6 +24,14 @@ enum Job : MUMPS_INT
   substitute = 3
 };
 
+/// What it means that @p n_missing of @p n pivots are zero.
+std::string singular(MUMPS_INT n_missing, MUMPS_INT n)
+{
+  return "the matrix is singular, " + std::to_string(n_missing) + " of its " + std::to_string(n) +
+         " pivots are zero to rounding; a static body may lack supports, or the load is at a limit or bifurcation "
+         "point: add supports, or take another step";
+}
+
 std::string explain(const DMUMPS_STRUC_C &mumps)
 {
   const auto        code = mumps.infog[0], detail = mumps.infog[1];
@@ -40,8 +48,7 @@ std::string explain(const DMUMPS_STRUC_C &mumps)
     case -9:
       return number + "the factors need more memory than was estimated, several times over";
     case -10:
-      return number + "the matrix is singular; look for missing supports, " + std::to_string(detail) +
-             " pivots were found";
+      return number + singular(mumps.n - detail, mumps.n);
     case -17:
     case -20:
       return number + "a communication buffer is too small";
@@ -100,10 +107,19 @@ std::vector<idx_t> dissect(std::span<const std::int64_t> ids, std::span<const in
   return position;
 }
 
-class Mumps final : public Factorisation
+/// A pivot below this fraction of the norm of the equilibrated matrix is zero to rounding.
+constexpr double zero_pivot = 1e-15;
+
+enum class Symmetry : MUMPS_INT
+{
+  none    = 0,
+  general = 2 ///< symmetric, not necessarily definite
+};
+
+class Mumps final : public SymmetricFactorisation
 {
 public:
-  Mumps() = default;
+  explicit Mumps(Symmetry symmetry) : symmetry_(symmetry) {}
   ~Mumps() override { end(); }
   Mumps(const Mumps &)            = delete;
   Mumps &operator=(const Mumps &) = delete;
@@ -112,7 +128,7 @@ public:
   {
     if (matrix.shared_graph() != graph_ || matrix.block_size() != block_size_)
       begin(matrix);
-    mumps_.a_loc = const_cast<double *>(matrix.values().data()); // MUMPS reads it only
+    mumps_.a_loc = entries(matrix);
     for (int enlarged = 0;; ++enlarged)
       {
         mumps_.job = factorise;
@@ -123,6 +139,8 @@ public:
         mumps_.icntl[13] *= 2;
       }
     check();
+    if (const auto n_zero = mumps_.infog[27]; n_zero > 0)
+      throw NoConvergence("MUMPS: " + singular(n_zero, mumps_.n));
   }
 
   void apply(std::span<const double> r, std::span<double> z) override
@@ -144,6 +162,7 @@ public:
   }
 
   bool is_complete() const override { return true; }
+  int  n_negative() const override { return static_cast<int>(mumps_.infog[11]); }
 
 private:
   /// Starts an instance for the graph of @p matrix and analyses it.
@@ -155,7 +174,7 @@ private:
 
     mumps_              = {};
     mumps_.par          = 1;
-    mumps_.sym          = 0;
+    mumps_.sym          = static_cast<MUMPS_INT>(symmetry_);
     mumps_.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(distribution_->comm()));
     mumps_.job          = initialise;
     dmumps_c(&mumps_);
@@ -165,16 +184,19 @@ private:
     const auto icntl = [this](int number) -> MUMPS_INT & { return mumps_.icntl[number - 1]; };
     for (const int stream : {1, 2, 3})
       icntl(stream) = -1;
-    icntl(4)  = 0;  // silent
-    icntl(6)  = 0;  // no permutation for a zero-free diagonal
-    icntl(7)  = 1;  // order given in perm_in
-    icntl(8)  = 0;  // the matrix is equilibrated
-    icntl(10) = 0;  // no iterative refinement
-    icntl(14) = 30; // per cent of memory more than estimated
-    icntl(18) = 3;  // entries given by the ranks that have them
-    icntl(20) = 0;  // right-hand side on rank 0
-    icntl(21) = 0;  // solution on rank 0
-    icntl(28) = 1;  // analysis on rank 0
+    icntl(4)       = 0;  // silent
+    icntl(6)       = 0;  // no permutation for a zero-free diagonal
+    icntl(7)       = 1;  // order given in perm_in
+    icntl(8)       = 0;  // the matrix is equilibrated
+    icntl(10)      = 0;  // no iterative refinement
+    icntl(13)      = 1;  // no ScaLAPACK for the last front: it finds no zero pivots and counts no negative ones
+    icntl(14)      = 30; // per cent of memory more than estimated
+    icntl(18)      = 3;  // entries given by the ranks that have them
+    icntl(20)      = 0;  // right-hand side on rank 0
+    icntl(21)      = 0;  // solution on rank 0
+    icntl(24)      = 1;  // find zero pivots
+    icntl(28)      = 1;  // analysis on rank 0
+    mumps_.cntl[2] = zero_pivot;
 
     number_entries(matrix);
     collect_order(matrix.graph());
@@ -203,22 +225,41 @@ private:
       throw NoConvergence(explain(mumps_));
   }
 
-  /// Row and column, from 1, of every entry of Matrix::values().
+  /// Row and column, from 1, of every entry of Matrix::values() that MUMPS is given.
   void number_entries(const Matrix &matrix)
   {
     const auto &graph = matrix.graph();
     rows_.clear();
     columns_.clear();
+    kept_.clear();
     rows_.reserve(matrix.values().size());
     columns_.reserve(matrix.values().size());
+    std::size_t place = 0;
     for (int A = 0; A < graph.n_rows(); ++A)
       for (int c = 0; c < block_size_; ++c)
         for (const int B : graph.row(A))
-          for (int d = 0; d < block_size_; ++d)
+          for (int d = 0; d < block_size_; ++d, ++place)
             {
-              rows_.push_back(static_cast<MUMPS_INT>(distribution_->global(A) * block_size_ + c + 1));
-              columns_.push_back(static_cast<MUMPS_INT>(distribution_->global(B) * block_size_ + d + 1));
+              const auto row    = distribution_->global(A) * block_size_ + c + 1;
+              const auto column = distribution_->global(B) * block_size_ + d + 1;
+              if (symmetry_ == Symmetry::general && row > column)
+                continue;
+              rows_.push_back(static_cast<MUMPS_INT>(row));
+              columns_.push_back(static_cast<MUMPS_INT>(column));
+              if (symmetry_ == Symmetry::general)
+                kept_.push_back(place);
             }
+  }
+
+  /// The values that belong to rows_ and columns_; MUMPS reads them only.
+  double *entries(const Matrix &matrix)
+  {
+    if (symmetry_ == Symmetry::none)
+      return const_cast<double *>(matrix.values().data());
+    values_.resize(kept_.size());
+    for (std::size_t k = 0; k < kept_.size(); ++k)
+      values_[k] = matrix.values()[kept_[k]];
+    return values_.data();
   }
 
   /// Fills what rank 0 needs: the ids of all ranks' values and the pivot order.
@@ -250,6 +291,7 @@ private:
     });
   }
 
+  Symmetry                            symmetry_;
   std::shared_ptr<const Distribution> distribution_;
   std::shared_ptr<const SparseGraph>  graph_; ///< of the running instance, empty if there is none
   int                                 block_size_ = 0;
@@ -257,6 +299,8 @@ private:
   std::vector<MUMPS_INT>              rows_, columns_, order_;
   std::vector<int>                    counts_, offsets_; ///< of the ranks' values on rank 0
   std::vector<std::int64_t>           ids_;              ///< control points, one rank after the other, on rank 0
+  std::vector<std::size_t>            kept_;             ///< places of the values that a symmetric MUMPS is given
+  std::vector<double>                 values_;           ///< those values
   std::vector<double>                 rhs_;              ///< in global numbering on rank 0
 };
 
@@ -264,7 +308,12 @@ private:
 
 std::unique_ptr<Factorisation> make_mumps()
 {
-  return std::make_unique<Mumps>();
+  return std::make_unique<Mumps>(Symmetry::none);
+}
+
+std::unique_ptr<SymmetricFactorisation> make_symmetric_mumps()
+{
+  return std::make_unique<Mumps>(Symmetry::general);
 }
 
 } // namespace sherd

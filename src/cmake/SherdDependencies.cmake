@@ -1,7 +1,7 @@
 # What sherd builds on. Included by the project itself and, after installation, by find_package(sherd).
 find_package(MPI REQUIRED COMPONENTS C CXX)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
-find_package(Trilinos REQUIRED COMPONENTS Tpetra Belos Ifpack2)
+find_package(Trilinos REQUIRED COMPONENTS Tpetra Belos Anasazi Ifpack2)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(METIS REQUIRED)
 find_package(MUMPS REQUIRED)

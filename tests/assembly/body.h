@@ -48,7 +48,7 @@ struct Body
   ControlValues<3> loads(const Loads<2> &loads, double time = 0.) const
   {
     auto f = make_force();
-    assembler.add_loads(loads, time, f);
+    assembler.external_force(level(), assembler.evaluate(loads, time), f);
     return on_all_ranks(f);
   }
 

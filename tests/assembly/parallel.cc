@@ -47,7 +47,7 @@ Loads<2> some_loads()
 {
   Loads<2> loads;
   loads.traction("right", [](const Point<2> &X, double) { return Point<2>(1. + X[1], -2.); });
-  loads.body_force([](const Point<2> &X, double) { return Point<2>(X[0] * X[1], 3.); });
+  loads.surface_load([](const Point<2> &X, double) { return Point<2>(X[0] * X[1], 3.); });
   return loads;
 }
 

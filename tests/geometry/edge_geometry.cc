@@ -101,3 +101,75 @@ TEST_CASE("Pieces follow the edge in the direction of its parameter")
         y = q.position[1];
       }
 }
+
+TEMPLATE_TEST_CASE("Derivatives on an edge are those of the shape functions", "", (std::integral_constant<int, 2>),
+                   (std::integral_constant<int, 3>))
+{
+  constexpr int degree  = TestType::value;
+  auto          surface = test::quarter_turn<degree, 3>(1., 0., 3., 1.);
+  auto          patch   = surface.patch(0);
+  std::mt19937  random(23);
+  for (auto &weight : patch.weights)
+    weight *= 1. + .2 * test::symmetric(random);
+  surface = {{std::move(patch)}, surface.edges()};
+  test::refine_at_random(surface, 3, 2, 4);
+  const auto &basis = surface.patch(0).basis;
+  const auto &w     = surface.patch(0).weights;
+
+  for (const auto &[name, sides] : surface.edges())
+    for (const auto &piece : edge_geometry(surface, sides.front()))
+      {
+        INFO(name << ", element " << piece.element);
+        CHECK(piece.normal_direction == (name == "inner" || name == "outer" ? 0 : 1));
+        CHECK(piece.outward == (name == "outer" || name == "end" ? 1 : -1));
+        const auto &element = basis.element(piece.element);
+        const auto  box     = [&](double s, double t) {
+          return std::array{element.min[0] + s * (element.max[0] - element.min[0]),
+                            element.min[1] + t * (element.max[1] - element.min[1])};
+        };
+        for (int q = 0; q <= degree; ++q)
+          {
+            // One-sided differences of the recurrence of Cox and de Boor, of order 4, into the element.
+            const auto  &point  = piece.quadrature[q];
+            const double along  = gauss_legendre(degree + 1).points[q];
+            const double border = piece.outward == 1 ? 1. : 0.;
+            const auto   values = [&](double s, double t) {
+              const auto      at        = box(s, t);
+              const auto      functions = evaluate(basis, piece.element, at[0], at[1]);
+              Eigen::VectorXd N(functions.size());
+              for (std::size_t k = 0; k < functions.size(); ++k)
+                N[k] = w[piece.points[k]] * functions[k].value;
+              return Eigen::VectorXd(N / N.sum());
+            };
+            const auto slope = [&](int d) {
+              const double    h = (d == piece.normal_direction ? -piece.outward : along < .5 ? 1. : -1.) * 1e-3;
+              Eigen::VectorXd sum;
+              const double    weights[] = {-25., 48., -36., 16., -3.};
+              for (int k = 0; k < 5; ++k)
+                {
+                  double at[2];
+                  at[piece.normal_direction]     = border;
+                  at[1 - piece.normal_direction] = along;
+                  at[d] += k * h;
+                  const Eigen::VectorXd term = weights[k] / (12. * h) * values(at[0], at[1]);
+                  sum                        = k == 0 ? term : Eigen::VectorXd(sum + term);
+                }
+              return sum;
+            };
+            const Eigen::VectorXd d1 = slope(0), d2 = slope(1);
+            Point<3>              A1 = Point<3>::Zero(), A2 = A1;
+            for (std::size_t k = 0; k < piece.points.size(); ++k)
+              {
+                // Differences: h^4 for the error of the formula and 1e-16/h for rounding.
+                CHECK(std::abs(point.d1[k] - d1[k]) < 1e-9);
+                CHECK(std::abs(point.d2[k] - d2[k]) < 1e-9);
+                A1 += point.d1[k] * surface.patch(0).control_points.row(piece.points[k]).transpose();
+                A2 += point.d2[k] * surface.patch(0).control_points.row(piece.points[k]).transpose();
+              }
+            CHECK((A1 - point.A1).norm() < 1e-13);
+            CHECK((A2 - point.A2).norm() < 1e-13);
+            const auto tangent = piece.normal_direction == 0 ? A2 : A1;
+            CHECK(point.dS == Approx(tangent.norm() * gauss_legendre(degree + 1).weights[q]).epsilon(1e-13));
+          }
+      }
+}

@@ -168,6 +168,44 @@ TEST_CASE("Elements and control points along an edge")
     }
 }
 
+TEST_CASE("The second row along an edge has a slope but no value there")
+{
+  // A double inner line makes functions whose knots repeat a value that is not the border's.
+  const auto     plate = shapes::plate<2, 2>({4., 4.}, {4, 4});
+  auto           patch = plate.patch(0);
+  const MeshLine line{Direction::u, 2., 0., 4., 2};
+  patch.control_points = patch.basis.insert(std::span(&line, 1)).transfer.apply(patch.control_points);
+  patch.weights.setOnes(patch.basis.n_functions());
+  Surface<2, 2> surface({patch}, plate.edges());
+  test::refine_at_random(surface, 3, 6, 5);
+  for (const auto &[name, sides] : surface.edges())
+    {
+      const bool          u_side = name == "left" || name == "right";
+      std::vector<int>    expected;
+      std::vector<double> value(surface.n_control_points(), 0.), slope = value;
+      for (const auto &piece : edge_geometry(surface, sides.front()))
+        for (const auto &q : piece.quadrature)
+          for (std::size_t k = 0; k < piece.points.size(); ++k)
+            {
+              value[piece.points[k]] += q.value[k];
+              slope[piece.points[k]] += std::abs(u_side ? q.d1[k] : q.d2[k]);
+            }
+      for (int i = 0; i < surface.n_control_points(); ++i)
+        if (value[i] < 1e-12 && slope[i] > 1e-12)
+          expected.push_back(i);
+      auto   points   = second_row_along(surface, sides.front());
+      double previous = -1.;
+      for (const int i : points)
+        {
+          const double X = surface.control_points()(i, u_side ? 1 : 0);
+          CHECK(X >= previous);
+          previous = X;
+        }
+      std::sort(points.begin(), points.end());
+      CHECK(points == expected);
+    }
+}
+
 TEST_CASE("Wrong surfaces are refused with a reason")
 {
   const auto plate = shapes::plate<2, 2>({1., 1.}, {2, 2});

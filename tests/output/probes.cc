@@ -7,24 +7,6 @@
 
 using namespace sherd;
 
-TEST_CASE("closest_place: finds the parameters of points of a curved surface", "[output][probes]")
-{
-  const auto  cylinder = test::refined_quarter_cylinder();
-  const auto &patch    = cylinder.patch(0);
-
-  for (double u : {0., 0.11, 0.5, 0.93, 1.})
-    for (double v : {0., 0.37, 1.})
-      {
-        const auto X     = bezier_element<3>(patch, patch.basis.element_at(u, v), patch.control_points)(u, v);
-        const auto place = closest_place<2, 3>(cylinder, X);
-        CHECK(place.u == Approx(u).margin(1e-8)); // square root of the rounding of a distance
-        CHECK(place.v == Approx(v).margin(1e-8));
-      }
-  const auto outside = closest_place<2, 3>(cylinder, Point<3>(std::sqrt(2.), std::sqrt(2.), 0.25));
-  CHECK(outside.u == Approx(0.5).margin(1e-7));
-  CHECK(outside.v == Approx(0.25).margin(1e-7));
-}
-
 TEST_CASE("Probes: displacement, phase and reactions in named columns", "[output][probes]")
 {
   const test::TemporaryFolder folder;

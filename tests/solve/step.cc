@@ -156,7 +156,7 @@ TEST_CASE("A prescribed displacement is imposed and its work closes the balance 
   supports.prescribe("right", Component::x, pull);
   Loads<2> loads;
   loads.traction("top", [](const Point<2> &X, double t) { return Point<2>(0., .5 * t * X[0]); });
-  loads.body_force([](const Point<2> &, double) { return Point<2>(.1, 0.); });
+  loads.surface_load([](const Point<2> &, double) { return Point<2>(.1, 0.); });
   Body<Glass> body(unbreakable.model(), {2., 1.}, {4, 2}, tight(), supports, loads, GeneralizedAlpha(1.));
   body.solver.set_initial_acceleration(body.state);
 
@@ -198,7 +198,7 @@ TEST_CASE("A plate pulled slowly carries E eps on its supports")
 TEST_CASE("The initial acceleration balances loads and internal forces")
 {
   Loads<2> loads;
-  loads.body_force([](const Point<2> &, double) { return Point<2>(3., -2.); });
+  loads.surface_load([](const Point<2> &, double) { return Point<2>(3., -2.); });
   Body<Glass> body(unbreakable.model(), {2., 1.}, {3, 2}, tight(), {}, loads);
   body.solver.set_initial_acceleration(body.state);
   for (int a = 0; a < body.state.distribution->n_local(); ++a)

@@ -18,8 +18,8 @@
 #include <sherd/base/output_directory.h>
 #include <sherd/base/parameters.h>
 #include <sherd/fracture/polyline.h>
+#include <sherd/geometry/bezier_element.h>
 #include <sherd/geometry/shapes.h>
-#include <sherd/output/bezier_element.h>
 #include <sherd/output/csv_table.h>
 #include <sherd/output/frames.h>
 #include <sherd/spline/evaluation.h>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -70,11 +71,11 @@ struct LinearSolverSettings
   }
 };
 
-/// What one solve took.
+/// What one solve took, with all its right-hand sides.
 struct SolveReport
 {
-  int            iterations        = 0;  ///< of all attempts together; 1 for a direct solve
-  double         relative_residual = 0.; ///< computed from the solution itself, not the recursion of GMRES
+  int            iterations        = 0;  ///< of all attempts and right-hand sides; 1 for each direct solve
+  double         relative_residual = 0.; ///< the largest, computed from the solutions, not the recursion of GMRES
   Preconditioner used              = Preconditioner::point_block_ilu;
   int            fill_level        = 0;     ///< of the incomplete factors that did it
   bool           escalated         = false; ///< whether this solve needed more than the preconditioner it began with
@@ -111,8 +112,13 @@ public:
   /// @p solution are. The old content of @p solution has no influence.
   ///
   /// Throws, on all ranks, NoConvergence if matrix or right-hand side hold a value that is not finite, if a row is
-  /// zero, or if the last attempt fails; DimensionMismatch if the arguments do not fit together.
+  /// zero, or if the last attempt fails, in particular if MUMPS finds the matrix singular; DimensionMismatch if the
+  /// arguments do not fit together.
   SolveReport solve(Matrix &matrix, const Vector &rhs, Vector &solution);
+
+  /// The same for several right-hand sides: solutions[k] = A^-1 rhs[k]. Factors are made once, unless one of the
+  /// right-hand sides needs stronger ones, which serve for those after it, too.
+  SolveReport solve(Matrix &matrix, std::span<const Vector> rhs, std::span<Vector> solutions);
 
   /// Drops symbolic phases and the memory of escalations: the mesh has changed, or a restart has to repeat this run.
   void forget();

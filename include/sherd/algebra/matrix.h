@@ -46,6 +46,10 @@ public:
   /// Number of values in one scalar row of block row @p A.
   int row_length(int A) const { return block_size_ * (graph_->offsets[A + 1] - graph_->offsets[A]); }
 
+  /// Entry (c, c) of the diagonal block of block row @p A.
+  double  diagonal(int A, int c) const { return values_[diagonal_position(A, c)]; }
+  double &diagonal(int A, int c) { return values_[diagonal_position(A, c)]; }
+
   void set_zero();
 
   /// y = A x on the owned control points; the ghosts of x have to be up to date, those of y are left as they are.
@@ -56,6 +60,8 @@ public:
   void multiply(std::span<const double> x, std::span<double> y) const;
 
 private:
+  std::size_t diagonal_position(int A, int c) const;
+
   std::shared_ptr<const Distribution> distribution_;
   std::shared_ptr<const SparseGraph>  graph_;
   int                                 block_size_;

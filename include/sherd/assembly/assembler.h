@@ -4,9 +4,10 @@
 
 #include <sherd/algebra/matrix.h>
 #include <sherd/algebra/vector.h>
+#include <sherd/assembly/load_values.h>
 #include <sherd/assembly/scatter.h>
+#include <sherd/assembly/tied_elements.h>
 #include <sherd/forms/element_energies.h>
-#include <sherd/forms/loads.h>
 #include <sherd/forms/shell_element.h>
 #include <sherd/geometry/edge_geometry.h>
 #include <sherd/state/state.h>
@@ -42,10 +43,12 @@ public:
   static constexpr int n_fields = Model::n_fields;
   static constexpr int n_q      = ElementData<Model>::n_q;
 
-  /// The arguments have to outlive the assembler. Collective.
+  /// Model and space have to outlive the assembler. What acts on tied control values acts on their masters; their own
+  /// rows and columns are empty but for a 1 on the diagonal. Collective.
+  /// @param ties   of the surface of @p space
   /// @throws InvalidParameter   a degenerate element, a toughness that is not positive: on all ranks
   Assembler(const Model &model, const ShellSpace<degree, spacedim> &space,
-            std::shared_ptr<const Distribution> distribution);
+            std::shared_ptr<const Distribution> distribution, const std::vector<Tie> &ties = {});
 
   const Model                               &model() const { return *model_; }
   const ShellSpace<degree, spacedim>        &space() const { return *space_; }
@@ -70,11 +73,21 @@ public:
   void linearise(const BalanceLevel &level, const QuadratureField &history, double mass_weight,
                  PhaseTangent phase_tangent, Vector &force, Matrix &matrix) const;
 
+  /// The same with loads: the external force on the owned control points, block n_fields, and the tangent of
+  /// (internal - external).
+  void linearise(const BalanceLevel &level, const QuadratureField &history, double mass_weight,
+                 PhaseTangent phase_tangent, const LoadValues<Model> &loads, Vector &force, Vector &external,
+                 Matrix &matrix) const;
+
   /// M in the displacement block, 1 on the diagonal of the phase.
   void mass_matrix(Matrix &matrix) const;
 
-  /// External forces at @p time added to the displacement part of @p force, block n_fields.
-  void add_loads(const Loads<spacedim> &loads, double time, Vector &force) const;
+  /// Loads of one time. Collective.
+  /// @throws InvalidParameter   an edge that does not exist, a point load away from the surface
+  LoadValues<Model> evaluate(const Loads<spacedim> &loads, double time) const;
+
+  /// External force of a deformed surface on the owned control points, block n_fields.
+  void external_force(const BalanceLevel &level, const LoadValues<Model> &loads, Vector &force) const;
 
   /// Energies of a state, summed over ranks. Collective.
   Energies energies(const Vector &position, const Vector &velocity, const Vector &phase) const;
@@ -103,14 +116,26 @@ public:
   Point<spacedim> quadrature_position(int e, int q) const { return elements_[e].geometry.position(q); }
 
 private:
+  using Extractions = std::array<ExtractionMatrix<degree>, n_fields>;
+
   ElementFields<Model> fields(int active, const Vector &position, const Vector &rate, const Vector &phase) const;
+  const ExtractionMatrix<degree> &extraction(int active, int field) const;
+  ControlValues<spacedim>         control_values(int active, const Vector &position) const;
+  RowRange                        all_rows() const { return {0, distribution_->n_owned(), {}}; }
   void scatter_force(int active, const ElementVector<Model> &f, const RowRange &range, Vector &force) const;
   void scatter_matrix(int active, const ElementMatrix<Model> &k, const RowRange &range, Matrix &matrix) const;
+  void scatter_point_force(int active, ControlValues<spacedim> f, Vector &force) const;
+  void scatter_point_matrix(int active, Eigen::MatrixXd k, Matrix &matrix) const;
+  void add_edge_moments(const Vector &position, const LoadValues<Model> &loads, Vector &external) const;
+  void add_edge_moment_tangents(const Vector &position, const LoadValues<Model> &loads, Matrix &matrix) const;
 
   const Model                        *model_;
   const ShellSpace<degree, spacedim> *space_;
   std::shared_ptr<const Distribution> distribution_;
   std::vector<ElementData<Model>>     elements_;
+  TiedElements<degree, spacedim>      ties_;
+  std::vector<Extractions>            tied_extractions_; ///< by the index of ties_
+  std::vector<std::pair<int, int>>    tied_unknowns_;    ///< owned local control point, field
   ScatterMap                          scatter_;
   std::vector<RowRange>               ranges_;
   double                              shortest_edge_;

@@ -7,6 +7,8 @@
 
 #include <sherd/assembly/assembler.h>
 #include <sherd/base/collective.h>
+#include <sherd/base/print.h>
+#include <sherd/geometry/place.h>
 
 namespace sherd
 {
@@ -17,35 +19,43 @@ namespace internal
 /// Control points of an element in the padded work space of the extraction.
 inline constexpr int max_element_points = 48;
 
-/// out[i][j] = sum_ab E_ia K_ab E_jb for one pair of fields: the element matrix on control points.
-/// @param Et   transposed extraction, by rows, shape=(n_b, width), zero beyond column n
-/// @param out  by rows, shape=(n, width)
+/// out[i][j] = sum_ab E_ia K_ab F_jb for one pair of fields: the element matrix on control points.
+/// @param Et, Ft   transposed extractions of the row and the column field, by rows, shape=(n_b, width), zero beyond
+///                 column n
+/// @param out      by rows, shape=(n, width)
 template <int n_b, int width>
-inline void extract_block(int n, const double *Et, const double *K, int stride_k, double *out)
+inline void extract_block(int n, const double *Et, const double *Ft, const double *K, int stride_k, double *out)
 {
-  // right = K E^T, then out = E right; both as A^T B with A = K^T and A = E^T.
+  // right = K F^T, then out = E right; both as A^T B with A = K^T and A = E^T.
   double transposed[n_b * n_b];
   for (int a = 0; a < n_b; ++a)
     for (int b = 0; b < n_b; ++b)
       transposed[b * n_b + a] = K[a * stride_k + b];
   alignas(64) double right[n_b * width] = {};
-  add_transposed_product<n_b, width>(n_b, transposed, n_b, Et, width, right, width);
+  add_transposed_product<width>(n_b, n_b, transposed, n_b, Ft, width, right, width);
   std::fill_n(out, n * width, 0.);
-  for (int i = 0; i + 3 <= n; i += 3)
-    add_rows<3, width / 4>(n_b, Et + i, width, right, width, out + i * width, width);
-  for (int i = n / 3 * 3; i < n; ++i)
-    add_rows<1, width / 4>(n_b, Et + i, width, right, width, out + i * width, width);
+  add_transposed_product<width>(n, n_b, Et, width, right, width, out, width);
+}
+
+/// Diagonal of the box around the control points.
+template <int degree, int spacedim>
+double surface_size(const Surface<degree, spacedim> &surface)
+{
+  const auto X = surface.control_points();
+  return (X.colwise().maxCoeff() - X.colwise().minCoeff()).norm();
 }
 
 } // namespace internal
 
 template <class Model>
 Assembler<Model>::Assembler(const Model &model, const ShellSpace<degree, spacedim> &space,
-                            std::shared_ptr<const Distribution> distribution)
+                            std::shared_ptr<const Distribution> distribution, const std::vector<Tie> &ties)
     : model_(&model),
       space_(&space),
       distribution_(std::move(distribution)),
       elements_(space.distribution().elements.size()),
+      ties_(space, ties),
+      tied_extractions_(ties_.n_elements()),
       scatter_(space.distribution()),
       ranges_(row_ranges(space.distribution(), omp_get_max_threads())),
       shortest_edge_(std::numeric_limits<double>::infinity()),
@@ -79,10 +89,16 @@ Assembler<Model>::Assembler(const Model &model, const ShellSpace<degree, spacedi
     if (error)
       std::rethrow_exception(error);
   });
+  for (const auto &tie : ties)
+    if (const int a = d.local[tie.point]; a >= 0 && a < distribution_->n_owned())
+      tied_unknowns_.push_back({a, tie.field});
   for (std::size_t e = 0; e < elements_.size(); ++e)
     {
       const auto &data = elements_[e];
-      shortest_edge_   = std::min(shortest_edge_, sherd::shortest_edge(data.geometry));
+      if (const int tied = ties_.index(static_cast<int>(e)); tied >= 0)
+        for (int c = 0; c < n_fields; ++c)
+          tied_extractions_[tied][c] = ties_.transfer(tied, c) * data.geometry.extraction;
+      shortest_edge_ = std::min(shortest_edge_, sherd::shortest_edge(data.geometry));
       std::optional<ShapeValues<degree>> storage;
       const auto                        &s      = data.geometry.shapes(storage);
       const auto                         points = space.points_of(static_cast<int>(e));
@@ -100,6 +116,13 @@ Assembler<Model>::Assembler(const Model &model, const ShellSpace<degree, spacedi
         }
     }
   MPI_Allreduce(MPI_IN_PLACE, &shortest_edge_, 1, MPI_DOUBLE, MPI_MIN, distribution_->comm());
+}
+
+template <class Model>
+auto Assembler<Model>::extraction(int active, int field) const -> const ExtractionMatrix<degree> &
+{
+  const int tied = ties_.index(active);
+  return tied < 0 ? elements_[active].geometry.extraction : tied_extractions_[tied][field];
 }
 
 template <class Model>
@@ -134,18 +157,20 @@ template <class Model>
 void Assembler<Model>::scatter_force(int active, const ElementVector<Model> &f, const RowRange &range,
                                      Vector &force) const
 {
-  const auto  points = space_->points_of(active);
-  const auto &E      = elements_[active].geometry.extraction;
-  auto        out    = force.local();
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (points[i] >= range.begin && points[i] < range.end)
-      for (int c = 0; c < n_fields; ++c)
-        {
-          double sum = 0.;
-          for (int b = 0; b < f.n_b; ++b)
-            sum += E(i, b) * f.value[c][b];
-          out[points[i] * n_fields + c] += sum;
-        }
+  const auto points = space_->points_of(active);
+  auto       out    = force.local();
+  for (int c = 0; c < n_fields; ++c)
+    {
+      const auto &E = extraction(active, c);
+      for (std::size_t i = 0; i < points.size(); ++i)
+        if (points[i] >= range.begin && points[i] < range.end)
+          {
+            double sum = 0.;
+            for (int b = 0; b < f.n_b; ++b)
+              sum += E(i, b) * f.value[c][b];
+            out[points[i] * n_fields + c] += sum;
+          }
+    }
 }
 
 template <class Model>
@@ -155,26 +180,33 @@ void Assembler<Model>::scatter_matrix(int active, const ElementMatrix<Model> &k,
   constexpr int n_b       = ElementMatrix<Model>::n_b;
   const auto    points    = space_->points_of(active);
   const int     n         = static_cast<int>(points.size());
-  const auto   &E         = elements_[active].geometry.extraction;
   const auto    positions = scatter_.positions(active);
   double *const values    = matrix.values().data();
 
-  // Degree 2 has 9 to 12 functions on the usual element, degree 3 16 to 24.
-  constexpr int      widest           = internal::max_element_points;
-  const int          width            = n <= 12 ? 12 : n <= 24 ? 24 : widest;
-  const auto         block_of         = width == 12   ? internal::extract_block<n_b, 12>
-                                        : width == 24 ? internal::extract_block<n_b, 24>
-                                                      : internal::extract_block<n_b, widest>;
-  alignas(64) double Et[n_b * widest] = {};
+  // Most elements have no more functions than a tensor mesh; where meshes of different size meet there are some more.
+  constexpr int tensor     = padded(n_b);
+  constexpr int wider      = padded(n_b) + 12;
+  constexpr int widest     = internal::max_element_points;
+  const int     width      = n <= tensor ? tensor : n <= wider ? wider : widest;
+  const auto    block_of   = width == tensor  ? internal::extract_block<n_b, tensor>
+                             : width == wider ? internal::extract_block<n_b, wider>
+                                              : internal::extract_block<n_b, widest>;
+  const int     n_distinct = ties_.index(active) < 0 ? 1 : n_fields;
+
+  alignas(64) double Et[n_fields][n_b * widest] = {};
   alignas(64) double block[widest * widest];
-  for (int i = 0; i < n; ++i)
-    for (int b = 0; b < n_b; ++b)
-      Et[b * width + i] = E(i, b);
+  for (int c = 0; c < n_distinct; ++c)
+    {
+      const auto &E = extraction(active, c);
+      for (int i = 0; i < n; ++i)
+        for (int b = 0; b < n_b; ++b)
+          Et[c][b * width + i] = E(i, b);
+    }
 
   for (int c = 0; c < n_fields; ++c)
     for (int d = 0; d < n_fields; ++d)
       {
-        block_of(n, Et, k.value[c * n_b] + d * n_b, k.stride, block);
+        block_of(n, Et[c % n_distinct], Et[d % n_distinct], k.value[c * n_b] + d * n_b, k.stride, block);
         for (int i = 0; i < n; ++i)
           if (points[i] >= range.begin && points[i] < range.end)
             {
@@ -182,6 +214,44 @@ void Assembler<Model>::scatter_matrix(int active, const ElementMatrix<Model> &k,
               const int *at  = positions.data() + i * n;
               for (int j = 0; j < n; ++j)
                 row[at[j] * n_fields] += block[i * width + j];
+            }
+      }
+}
+
+template <class Model>
+void Assembler<Model>::scatter_point_force(int active, ControlValues<spacedim> f, Vector &force) const
+{
+  const auto points = space_->points_of(active);
+  if (const int tied = ties_.index(active); tied >= 0)
+    for (int c = 0; c < spacedim; ++c)
+      f.col(c) = (ties_.transfer(tied, c) * f.col(c)).eval();
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i] < distribution_->n_owned())
+      for (int c = 0; c < spacedim; ++c)
+        force.local()[points[i] * n_fields + c] += f(i, c);
+}
+
+template <class Model>
+void Assembler<Model>::scatter_point_matrix(int active, Eigen::MatrixXd k, Matrix &matrix) const
+{
+  const auto points    = space_->points_of(active);
+  const int  n         = static_cast<int>(points.size());
+  const auto positions = scatter_.positions(active);
+  const auto entries   = [&](int c, int d) {
+    return k(Eigen::seqN(c, n, Eigen::fix<spacedim>), Eigen::seqN(d, n, Eigen::fix<spacedim>));
+  };
+  for (int c = 0; c < spacedim; ++c)
+    for (int d = 0; d < spacedim; ++d)
+      {
+        Eigen::MatrixXd block = entries(c, d);
+        if (const int tied = ties_.index(active); tied >= 0)
+          block = ties_.transfer(tied, c) * block * ties_.transfer(tied, d).transpose();
+        for (int i = 0; i < n; ++i)
+          if (points[i] < distribution_->n_owned())
+            {
+              double *row = matrix.values().data() + matrix.row_start(points[i]) + c * matrix.row_length(points[i]) + d;
+              for (int j = 0; j < n; ++j)
+                row[positions[i * n + j] * n_fields] += block(i, j);
             }
       }
 }
@@ -205,7 +275,17 @@ template <class Model>
 void Assembler<Model>::linearise(const BalanceLevel &level, const QuadratureField &history, double mass_weight,
                                  PhaseTangent phase_tangent, Vector &force, Matrix &matrix) const
 {
+  Vector none = force;
+  linearise(level, history, mass_weight, phase_tangent, {}, force, none, matrix);
+}
+
+template <class Model>
+void Assembler<Model>::linearise(const BalanceLevel &level, const QuadratureField &history, double mass_weight,
+                                 PhaseTangent phase_tangent, const LoadValues<Model> &loads, Vector &force,
+                                 Vector &external, Matrix &matrix) const
+{
   force.fill(0.);
+  external.fill(0.);
   matrix.set_zero();
 #pragma omp parallel for schedule(static, 1)
   for (std::size_t r = 0; r < ranges_.size(); ++r)
@@ -215,9 +295,71 @@ void Assembler<Model>::linearise(const BalanceLevel &level, const QuadratureFiel
         ElementVector<Model> vector;
         ElementMatrix<Model> tangent;
         element_tangent(*model_, elements_[e], f, history[e], mass_weight, phase_tangent, vector, tangent);
+        if constexpr (spacedim == 3)
+          if (!loads.pressure.empty())
+            {
+              ElementVector<Model> pressure = {};
+              add_pressure(elements_[e], f, loads.pressure[e], pressure);
+              add_pressure_tangent(elements_[e], f, loads.pressure[e], tangent);
+              scatter_force(e, pressure, ranges_[r], external);
+            }
         scatter_force(e, vector, ranges_[r], force);
         scatter_matrix(e, tangent, ranges_[r], matrix);
       }
+  for (const auto &[a, field] : tied_unknowns_)
+    matrix.diagonal(a, field) = 1.;
+  if (loads.dead)
+    axpy(1., *loads.dead, external);
+  add_edge_moments(level.position, loads, external);
+  add_edge_moment_tangents(level.position, loads, matrix);
+}
+
+template <class Model>
+void Assembler<Model>::external_force(const BalanceLevel &level, const LoadValues<Model> &loads, Vector &force) const
+{
+  force.fill(0.);
+  if constexpr (spacedim == 3)
+    for (std::size_t e = 0; e < loads.pressure.size(); ++e)
+      {
+        const int            active   = static_cast<int>(e);
+        const auto           f        = fields(active, level.position, level.acceleration, level.phase);
+        ElementVector<Model> pressure = {};
+        add_pressure(elements_[e], f, loads.pressure[e], pressure);
+        scatter_force(active, pressure, all_rows(), force);
+      }
+  if (loads.dead)
+    axpy(1., *loads.dead, force);
+  add_edge_moments(level.position, loads, force);
+}
+
+template <class Model>
+void Assembler<Model>::add_edge_moments(const Vector &position, const LoadValues<Model> &loads, Vector &external) const
+{
+  if constexpr (spacedim == 3)
+    for (const auto &load : loads.moments)
+      scatter_point_force(load.active,
+                          edge_moment_force(load.piece, control_values(load.active, position), load.moment), external);
+}
+
+template <class Model>
+void Assembler<Model>::add_edge_moment_tangents(const Vector &position, const LoadValues<Model> &loads,
+                                                Matrix &matrix) const
+{
+  if constexpr (spacedim == 3)
+    for (const auto &load : loads.moments)
+      scatter_point_matrix(
+          load.active, -edge_moment_tangent(load.piece, control_values(load.active, position), load.moment), matrix);
+}
+
+template <class Model>
+auto Assembler<Model>::control_values(int active, const Vector &position) const -> ControlValues<spacedim>
+{
+  const auto              points = space_->points_of(active);
+  ControlValues<spacedim> values(points.size(), spacedim);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (int d = 0; d < spacedim; ++d)
+      values(i, d) = position.local()[points[i] * spacedim + d];
+  return values;
 }
 
 template <class Model>
@@ -239,53 +381,85 @@ void Assembler<Model>::mass_matrix(Matrix &matrix) const
                     model_->mass * elements_[e].geometry.reference[q].dA * s.value[q][a] * s.value[q][b];
         scatter_matrix(e, m, range, matrix);
       }
-  auto values = matrix.values();
   for (int a = 0; a < distribution_->n_owned(); ++a)
-    {
-      const auto row = matrix.graph().row(a);
-      const auto k   = std::lower_bound(row.begin(), row.end(), a) - row.begin();
-      values[matrix.row_start(a) + spacedim * matrix.row_length(a) + k * n_fields + spacedim] = 1.;
-    }
+    matrix.diagonal(a, spacedim) = 1.;
+  for (const auto &[a, field] : tied_unknowns_)
+    matrix.diagonal(a, field) = 1.;
 }
 
 template <class Model>
-void Assembler<Model>::add_loads(const Loads<spacedim> &loads, double time, Vector &force) const
+LoadValues<Model> Assembler<Model>::evaluate(const Loads<spacedim> &loads, double time) const
 {
-  const auto &local = space_->distribution().local;
-  auto        out   = force.local();
-  const auto  add   = [&](int a, double weight, const Point<spacedim> &f) {
-    if (a >= 0 && a < distribution_->n_owned())
-      for (int d = 0; d < spacedim; ++d)
-        out[a * n_fields + d] += weight * f[d];
-  };
+  const auto       &surface = space_->surface();
+  const auto       &d       = space_->distribution();
+  LoadValues<Model> values;
+  std::vector<int>  active(surface.n_elements(), -1);
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    active[d.elements[e]] = static_cast<int>(e);
+
+  if (!loads.tractions().empty() || !loads.surface_loads().empty() || !loads.point_loads().empty())
+    values.dead.emplace(distribution_, n_fields);
   for (const auto &load : loads.tractions())
-    for (const auto &edge : space_->surface().edge(load.edge))
-      for (const auto &piece : edge_geometry(space_->surface(), edge))
-        for (const auto &q : piece.quadrature)
+    for (const auto &edge : surface.edge(load.edge))
+      for (const auto &piece : edge_geometry(surface, edge))
+        if (const int e = active[piece.element]; e >= 0)
           {
-            const auto t = load.traction(q.position, time);
-            for (std::size_t i = 0; i < piece.points.size(); ++i)
-              add(local[piece.points[i]], q.value[i] * q.dS, t);
+            ControlValues<spacedim> f = ControlValues<spacedim>::Zero(piece.points.size(), spacedim);
+            for (const auto &q : piece.quadrature)
+              f += Eigen::Map<const Eigen::VectorXd>(q.value.data(), q.value.size()) *
+                   (q.dS * load.traction(q.position, time)).transpose();
+            scatter_point_force(e, f, *values.dead);
           }
-  for (const auto &body_force : loads.body_forces())
+  for (const auto &surface_load : loads.surface_loads())
     for (std::size_t e = 0; e < elements_.size(); ++e)
       {
         const auto                        &g = elements_[e].geometry;
         std::optional<ShapeValues<degree>> storage;
-        const auto                        &s      = g.shapes(storage);
-        const auto                         points = space_->points_of(static_cast<int>(e));
+        const auto                        &s = g.shapes(storage);
+        ElementVector<Model>               f = {};
         for (int q = 0; q < n_q; ++q)
           {
-            const auto f = body_force(g.position(q), time);
-            for (std::size_t i = 0; i < points.size(); ++i)
-              {
-                double value = 0.;
-                for (int b = 0; b < s.n_functions; ++b)
-                  value += g.extraction(i, b) * s.value[q][b];
-                add(points[i], value * g.reference[q].dA, f);
-              }
+            const Point<spacedim> density = g.reference[q].dA * surface_load(g.position(q), time);
+            for (int c = 0; c < spacedim; ++c)
+              for (int b = 0; b < s.n_functions; ++b)
+                f.value[c][b] += s.value[q][b] * density[c];
           }
+        scatter_force(static_cast<int>(e), f, all_rows(), *values.dead);
       }
+  for (const auto &load : loads.point_loads())
+    {
+      const auto place = closest_place(surface, load.position);
+      if (const double distance = (position(surface, place) - load.position).norm();
+          !(distance <= 1e-3 * internal::surface_size(surface)))
+        throw InvalidParameter("point load: its position lies " + print(distance) +
+                               " away from the reference surface, whose size is " +
+                               print(internal::surface_size(surface)) + "; expected a point on it");
+      const auto at = sherd::evaluate(surface, place);
+      const int  element =
+          surface.element_offset(place.patch) + surface.patch(place.patch).basis.element_at(place.u, place.v);
+      if (const int e = active[element]; e >= 0)
+        scatter_point_force(
+            e, Eigen::Map<const Eigen::VectorXd>(at.value.data(), at.value.size()) * load.force(time).transpose(),
+            *values.dead);
+    }
+
+  if constexpr (spacedim == 3)
+    {
+      if (!loads.pressures().empty())
+        for (const auto &data : elements_)
+          values.pressure.push_back(element_pressure(data, loads, time));
+      for (const auto &load : loads.edge_moments())
+        for (const auto &edge : surface.edge(load.edge))
+          for (auto &piece : edge_geometry(surface, edge))
+            if (const int e = active[piece.element]; e >= 0)
+              {
+                PieceMoment<degree> moment;
+                for (int q = 0; q <= degree; ++q)
+                  moment[q] = load.moment(piece.quadrature[q].position, time);
+                values.moments.push_back({e, std::move(piece), moment});
+              }
+    }
+  return values;
 }
 
 template <class Model>

@@ -71,21 +71,24 @@ constexpr int padded(int n)
   return (n + 3) / 4 * 4;
 }
 
-/// C += A^T B with A: rows x M, B: rows x N, C: M x N, all by rows with the given strides. N is a multiple of 4; where
+/// C += A^T B with A: rows x m, B: rows x N, C: m x N, all by rows with the given strides. N is a multiple of 4; where
 /// it is padded, B holds zeros, which are added to whatever follows in the row of C.
-template <int M, int N>
-inline void add_transposed_product(int rows, const double *A, int stride_a, const double *B, int stride_b, double *C,
-                                   int stride_c)
+template <int N>
+inline void add_transposed_product(int m, int rows, const double *A, int stride_a, const double *B, int stride_b,
+                                   double *C, int stride_c)
 {
   static_assert(N % 4 == 0);
-  // As many rows of C at a time as leave their sums in registers.
-  constexpr int block = N <= 12 ? 3 : 2;
-  int           i     = 0;
-  for (; i + block <= M; i += block)
-    internal::add_rows<block, N / 4>(rows, A + i, stride_a, B, stride_b, C + i * stride_c, stride_c);
-  if constexpr (M % block != 0)
-    for (; i < M; ++i)
-      internal::add_rows<1, N / 4>(rows, A + i, stride_a, B, stride_b, C + i * stride_c, stride_c);
+  // As many rows and columns of C at a time as leave their sums in registers.
+  constexpr int n_parts = (N / 4 + 6) / 7;
+  constexpr int packs   = (N / 4 + n_parts - 1) / n_parts;
+  constexpr int block   = packs <= 3 ? 3 : 2;
+  const int     whole   = m / block * block;
+  for (int i = 0; i < whole; i += block)
+    internal::add_rows<block, packs>(rows, A + i, stride_a, B, stride_b, C + i * stride_c, stride_c);
+  for (int i = whole; i < m; ++i)
+    internal::add_rows<1, packs>(rows, A + i, stride_a, B, stride_b, C + i * stride_c, stride_c);
+  if constexpr (4 * packs < N)
+    add_transposed_product<N - 4 * packs>(m, rows, A, stride_a, B + 4 * packs, stride_b, C + 4 * packs, stride_c);
 }
 
 } // namespace sherd

@@ -5,6 +5,7 @@
 #include <sherd/forms/brittle_shell.h>
 #include <sherd/forms/element_arrays.h>
 #include <sherd/geometry/element_geometry.h>
+#include <sherd/kinematics/surface_frame.h>
 
 namespace sherd
 {
@@ -15,6 +16,35 @@ enum class PhaseTangent
   consistent, ///< kappa = g'' H + Gc/(2 l0)
   switched    ///< max(|kappa|, 0.02 Gc/(2 l0)): positive, so that Newton leaves the false branch (theory C.2)
 };
+
+namespace internal
+{
+
+/// sum_b values_b coefficients[d][b] for each component d.
+template <int spacedim, int n_b>
+inline Point<spacedim> interpolate(const std::array<double, n_b> &values, const double (&coefficients)[spacedim][n_b])
+{
+  Point<spacedim> sum;
+  for (int d = 0; d < spacedim; ++d)
+    {
+      double component = 0.;
+      for (int b = 0; b < n_b; ++b)
+        component += values[b] * coefficients[d][b];
+      sum[d] = component;
+    }
+  return sum;
+}
+
+inline ReferencePoint<2> reference_point(std::integral_constant<int, 2>, const ReferenceQuadraturePoint &q)
+{
+  return ReferencePoint<2>(metric(q.covariant));
+}
+inline ReferencePoint<3> reference_point(std::integral_constant<int, 3>, const ReferenceQuadraturePoint &q)
+{
+  return ReferencePoint<3>(metric(q.covariant), q.curvature);
+}
+
+} // namespace internal
 
 /// What does not change in time at the quadrature points of one element.
 template <class Model>
@@ -35,7 +65,8 @@ ElementData<Model> element_data(const Model &model, const Surface<Model::degree,
   data.geometry = element_geometry(surface, element);
   for (int q = 0; q < data.n_q; ++q)
     {
-      data.reference[q] = ReferencePoint<Model::spacedim>(metric(data.geometry.reference[q].covariant));
+      data.reference[q] =
+          internal::reference_point(std::integral_constant<int, Model::spacedim>(), data.geometry.reference[q]);
       data.toughness[q] = model.toughness(data.geometry.position(q));
     }
   return data;
@@ -45,12 +76,28 @@ ElementData<Model> element_data(const Model &model, const Surface<Model::degree,
 template <class Model>
 struct PointState
 {
-  Point<Model::spacedim>         a1, a2;  ///< tangents
+  SurfaceFrame<Model::spacedim>  frame;
   Point<Model::spacedim>         inertia; ///< acceleration
   double                         phi, phi_1, phi_2, laplacian;
   SplitResponse<Model::spacedim> response;
   double                         driving; ///< H, trial value
 };
+
+/// Deformed surface at quadrature point @p q. @param position   Bernstein coefficients of x, shape=(spacedim, n_b)
+template <int degree, int spacedim>
+SurfaceFrame<spacedim> surface_frame(const ShapeValues<degree> &s,
+                                     const double (&position)[spacedim][ShapeValues<degree>::n_functions], int q)
+{
+  constexpr int n_b = ShapeValues<degree>::n_functions;
+  const auto    a1  = internal::interpolate<spacedim, n_b>(s.d1[q], position);
+  const auto    a2  = internal::interpolate<spacedim, n_b>(s.d2[q], position);
+  if constexpr (spacedim == 2)
+    return {a1, a2};
+  else
+    return {a1, a2, internal::interpolate<spacedim, n_b>(s.d11[q], position),
+            internal::interpolate<spacedim, n_b>(s.d22[q], position),
+            internal::interpolate<spacedim, n_b>(s.d12[q], position)};
+}
 
 /// Evaluates one quadrature point. @p laplace holds the Laplacians of the shape functions there, shape=(n_b).
 template <class Model>
@@ -58,21 +105,10 @@ PointState<Model> evaluate_point(const Model &model, const ElementData<Model> &d
                                  const ShapeValues<Model::degree> &s, const ElementFields<Model> &fields,
                                  const double *laplace, double accepted_history, int q)
 {
-  constexpr int     n_b = ElementFields<Model>::n_b;
-  PointState<Model> p{};
-  for (int d = 0; d < Model::spacedim; ++d)
-    {
-      double a1 = 0., a2 = 0., a = 0.;
-      for (int b = 0; b < n_b; ++b)
-        {
-          a1 += s.d1[q][b] * fields.position[d][b];
-          a2 += s.d2[q][b] * fields.position[d][b];
-          a += s.value[q][b] * fields.acceleration[d][b];
-        }
-      p.a1[d]      = a1;
-      p.a2[d]      = a2;
-      p.inertia[d] = a;
-    }
+  constexpr int     n_b     = ElementFields<Model>::n_b;
+  const auto        frame   = surface_frame<Model::degree, Model::spacedim>(s, fields.position, q);
+  const auto        inertia = internal::interpolate<Model::spacedim, n_b>(s.value[q], fields.acceleration);
+  PointState<Model> p{frame, inertia, 0., 0., 0., 0., model.split.respond(surface_point(data.reference[q], frame)), 0.};
   for (int b = 0; b < n_b; ++b)
     {
       p.phi += s.value[q][b] * fields.phase[b];
@@ -80,8 +116,6 @@ PointState<Model> evaluate_point(const Model &model, const ElementData<Model> &d
       p.phi_2 += s.d2[q][b] * fields.phase[b];
       p.laplacian += laplace[b] * fields.phase[b];
     }
-  p.response =
-      model.split.respond(SurfacePoint<Model::spacedim>(data.reference[q], metric<Model::spacedim>(p.a1, p.a2)));
   p.driving = model.irreversibility.trial(accepted_history, p.response.energy_active);
   return p;
 }
@@ -101,7 +135,7 @@ std::array<double, ShapeValues<degree>::n_functions> shape_laplacians(const Shap
 
 /// Internal and inertial force of one element and the phase residual,
 ///
-///   f_A    = int rho N_A a + tau^ab N_A,a a_b dA,
+///   f_A    = int rho N_A a + tau^ab N_A,a a_b + M_0^ab N_A;ab n dA,
 ///   fphi_A = int g' H N_A + Gc/(2 l0) [(phi - 1) N_A + c1 A^ab N_A,a phi,b + c2 lap N_A lap phi] dA.
 ///
 /// @param history   accepted H at the quadrature points, shape=(n_q)

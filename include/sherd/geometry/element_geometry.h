@@ -1,8 +1,6 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -21,6 +19,7 @@ struct ReferenceQuadraturePoint
   double dA;            ///< J_A times the quadrature weight, [length^2]
   double laplace_1;     ///< A^ab Gamma^1_ab: the Laplacian of S is A^ab S,ab - laplace_1 S,1 - laplace_2 S,2
   double laplace_2;     ///< A^ab Gamma^2_ab
+  Voigt  curvature;     ///< B_ab = A_a,b . N with N = A_1 x A_2 / |A_1 x A_2| (theory A.1); zero in the plane
 };
 
 /// One element in Bernstein form: which control points act on it and how, and the reference surface at its
@@ -66,26 +65,22 @@ struct ElementGeometry
 template <int degree, int spacedim>
 ElementGeometry<degree, spacedim> element_geometry(const Surface<degree, spacedim> &surface, int element);
 
-/// Shortest edge of the element on the reference surface, min over directions and opposite edges of the length of the
-/// edge's Bezier polygon, which bounds the arc length from above and equals it on straight edges (theory F.3).
+/// Shortest edge of the element on the reference surface, min over directions and opposite edges of the arc length
+/// int |X,a| by degree + 1 Gauss points (theory F.3). Exact to rounding on straight edges of polynomial elements, of
+/// order 2 degree + 2 on the others.
 template <int degree, int spacedim>
-double shortest_edge(const ElementGeometry<degree, spacedim> &geometry)
-{
-  constexpr int n          = degree + 1;
-  double        lengths[4] = {0., 0., 0., 0.};
-  const auto    corner     = [&](int b) -> Point<spacedim> {
-    return geometry.bezier_points.col(b) / (geometry.denominator ? (*geometry.denominator)[b] : 1.);
-  };
-  for (int k = 0; k < degree; ++k)
-    {
-      lengths[0] += (corner(k + 1) - corner(k)).norm();
-      lengths[1] += (corner(degree * n + k + 1) - corner(degree * n + k)).norm();
-      lengths[2] += (corner((k + 1) * n) - corner(k * n)).norm();
-      lengths[3] += (corner((k + 1) * n + degree) - corner(k * n + degree)).norm();
-    }
-  return *std::min_element(lengths, lengths + 4);
-}
+double shortest_edge(const ElementGeometry<degree, spacedim> &geometry);
 
 } // namespace sherd
 
 #include <sherd/geometry/element_geometry.templates.h>
+
+namespace sherd
+{
+extern template ElementGeometry<2, 2> element_geometry(const Surface<2, 2> &, int);
+extern template ElementGeometry<3, 2> element_geometry(const Surface<3, 2> &, int);
+extern template ElementGeometry<4, 2> element_geometry(const Surface<4, 2> &, int);
+extern template ElementGeometry<2, 3> element_geometry(const Surface<2, 3> &, int);
+extern template ElementGeometry<3, 3> element_geometry(const Surface<3, 3> &, int);
+extern template ElementGeometry<4, 3> element_geometry(const Surface<4, 3> &, int);
+} // namespace sherd

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
 #include <sherd/base/print.h>
 #include <sherd/geometry/element_geometry.h>
 
@@ -62,8 +67,51 @@ ElementGeometry<degree, spacedim> element_geometry(const Surface<degree, spacedi
       const Vector laplacian = Ac[0] * A11 + Ac[1] * A22 + 2. * Ac[2] * A12;
       point.laplace_1        = (Ac[0] * A1 + Ac[2] * A2).dot(laplacian);
       point.laplace_2        = (Ac[2] * A1 + Ac[1] * A2).dot(laplacian);
+      if constexpr (spacedim == 3)
+        {
+          const Vector normal = A1.cross(A2).normalized();
+          point.curvature     = Voigt(A11.dot(normal), A22.dot(normal), A12.dot(normal));
+        }
+      else
+        point.curvature.setZero();
     }
   return g;
+}
+
+template <int degree, int spacedim>
+double shortest_edge(const ElementGeometry<degree, spacedim> &geometry)
+{
+  constexpr int         n     = degree + 1;
+  static constexpr auto gauss = [] {
+    std::array<UnivariateBernstein<degree>, n> values{};
+    for (int q = 0; q < n; ++q)
+      values[q] = bernstein_1d<degree>(gauss_legendre(n).points[q]);
+    return values;
+  }();
+  const auto length = [&](int first, int stride) {
+    double sum = 0.;
+    for (int q = 0; q < n; ++q)
+      {
+        Point<spacedim> X = Point<spacedim>::Zero(), dX = X;
+        double          W = 0., dW = 0.;
+        for (int k = 0; k < n; ++k)
+          {
+            const int b = first + k * stride;
+            X += gauss[q].value[k] * geometry.bezier_points.col(b);
+            dX += gauss[q].first[k] * geometry.bezier_points.col(b);
+            if (geometry.denominator)
+              {
+                W += gauss[q].value[k] * (*geometry.denominator)[b];
+                dW += gauss[q].first[k] * (*geometry.denominator)[b];
+              }
+          }
+        if (geometry.denominator)
+          dX = (dX - dW / W * X) / W;
+        sum += gauss_legendre(n).weights[q] * dX.norm();
+      }
+    return sum;
+  };
+  return std::min({length(0, 1), length(degree * n, 1), length(0, n), length(degree, n)});
 }
 
 } // namespace sherd

@@ -87,6 +87,27 @@ std::vector<int> elements_along(const Surface<degree, spacedim> &surface, const 
 template <int degree, int spacedim>
 std::vector<int> points_along(const Surface<degree, spacedim> &surface, const Edge &edge);
 
+/// Control points whose function vanishes on a side but whose derivative across it does not: the second row, in the
+/// order of the parameter along the side. After local refinement it need not have as many as the first (points_along).
+/// These two rows alone decide position and tangent plane of a surface along its side.
+template <int degree, int spacedim>
+std::vector<int> second_row_along(const Surface<degree, spacedim> &surface, const Edge &edge);
+
 } // namespace sherd
 
 #include <sherd/geometry/surface.templates.h>
+
+#define SHERD_EXTERN(degree, spacedim)                                                                                 \
+  extern template class Surface<degree, spacedim>;                                                                     \
+  extern template std::vector<int> elements_along(const Surface<degree, spacedim> &, const Edge &);                    \
+  extern template std::vector<int> points_along(const Surface<degree, spacedim> &, const Edge &);
+namespace sherd
+{
+SHERD_EXTERN(2, 2)
+SHERD_EXTERN(3, 2)
+SHERD_EXTERN(4, 2)
+SHERD_EXTERN(2, 3)
+SHERD_EXTERN(3, 3)
+SHERD_EXTERN(4, 3)
+} // namespace sherd
+#undef SHERD_EXTERN

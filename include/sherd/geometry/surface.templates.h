@@ -153,19 +153,23 @@ std::vector<int> elements_along(const Surface<degree, spacedim> &surface, const 
   return elements;
 }
 
-template <int degree, int spacedim>
-std::vector<int> points_along(const Surface<degree, spacedim> &surface, const Edge &edge)
+namespace internal
 {
-  const auto &basis   = surface.patch(edge.patch).basis;
-  const int   normal  = internal::normal_direction(edge.side);
-  const int   tangent = 1 - normal;
+/// Control points whose knots across a side repeat its value exactly @p multiplicity times, in the order of the
+/// parameter along the side.
+template <int degree, int spacedim>
+std::vector<int> points_of_multiplicity(const Surface<degree, spacedim> &surface, const Edge &edge, int multiplicity)
+{
+  const auto  &basis   = surface.patch(edge.patch).basis;
+  const int    normal  = normal_direction(edge.side);
+  const int    tangent = 1 - normal;
+  const double border  = at_maximum(edge.side) ? basis.domain().max[normal] : basis.domain().min[normal];
 
-  // Only a function whose knots are all but one equal in the normal direction is not zero on the side.
   std::vector<int> points;
   for (int i = 0; i < basis.n_functions(); ++i)
     {
       const auto &knots = basis.function(i).knots[normal];
-      if (internal::at_maximum(edge.side) ? knots[1] == knots[degree + 1] : knots[0] == knots[degree])
+      if (std::count(knots.begin(), knots.end(), border) == multiplicity)
         points.push_back(i);
     }
   const auto centre = [&](int i) {
@@ -176,6 +180,19 @@ std::vector<int> points_along(const Surface<degree, spacedim> &surface, const Ed
   for (int &i : points)
     i += surface.point_offset(edge.patch);
   return points;
+}
+} // namespace internal
+
+template <int degree, int spacedim>
+std::vector<int> points_along(const Surface<degree, spacedim> &surface, const Edge &edge)
+{
+  return internal::points_of_multiplicity(surface, edge, degree + 1);
+}
+
+template <int degree, int spacedim>
+std::vector<int> second_row_along(const Surface<degree, spacedim> &surface, const Edge &edge)
+{
+  return internal::points_of_multiplicity(surface, edge, degree);
 }
 
 } // namespace sherd

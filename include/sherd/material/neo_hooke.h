@@ -47,6 +47,8 @@ public:
   double bulk() const { return K_; }  ///< K [force/length]
   double shear() const { return G_; } ///< G [force/length]
 
+  Response<2> respond(const SurfacePoint<2> &point) const { return dilatation(point) + deviator(point); }
+
   /// tau = K/2 (J^2 - 1) a^ab,  c = K [J^2 a^ab a^cd + (J^2 - 1) a^abcd].
   Response<2> dilatation(const SurfacePoint<2> &point) const
   {
@@ -79,6 +81,6 @@ private:
   double K_, G_;
 };
 
-static_assert(MembraneLaw<NeoHooke>);
+static_assert(SeparableMembraneLaw<NeoHooke>);
 
 } // namespace sherd::material

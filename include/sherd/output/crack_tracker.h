@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include <sherd/geometry/bezier_element.h>
 #include <sherd/geometry/surface.h>
-#include <sherd/output/bezier_element.h>
 #include <sherd/output/crack_tree.h>
 
 namespace sherd

@@ -7,8 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include <sherd/geometry/bezier_element.h>
 #include <sherd/geometry/surface.h>
-#include <sherd/output/bezier_element.h>
 #include <sherd/output/replace_file.h>
 #include <sherd/output/vtu.h>
 #include <sherd/state/snapshot.h>

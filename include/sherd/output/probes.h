@@ -2,25 +2,12 @@
 
 #include <optional>
 
-#include <sherd/geometry/surface.h>
-#include <sherd/output/bezier_element.h>
+#include <sherd/geometry/place.h>
 #include <sherd/output/csv_table.h>
 #include <sherd/state/snapshot.h>
 
 namespace sherd
 {
-
-/// A point of the reference surface in the parameters of a patch.
-struct SurfacePlace
-{
-  int    patch;
-  double u, v;
-};
-
-/// The point of the surface closest to @p X: the best of 3 x 3 points an element, then Gauss-Newton in the parameters,
-/// kept inside the patch.
-template <int degree, int spacedim>
-SurfacePlace closest_place(const Surface<degree, spacedim> &surface, const Point<spacedim> &X);
 
 /// A point to be watched.
 template <int spacedim>

@@ -2,9 +2,11 @@
 
 #include <sherd/fracture/crack_density/fourth_order.h>
 #include <sherd/fracture/degradation/cubic.h>
+#include <sherd/material/shell_laws.h>
 #include <sherd/material/split/none.h>
 #include <sherd/material/split/surface_stretch.h>
 #include <sherd/solve/monolithic_solver.h>
+#include <sherd/solve/static_solver.h>
 #include <sherd/time/generalized_alpha.h>
 #include <sherd/time/newmark.h>
 
@@ -23,6 +25,16 @@ using Plate =
 /// The same without a split: compression cracks as tension does.
 using UnsplitPlate =
     BrittleShell<2, 2, split::None<material::NeoHooke>, degradation::Cubic, crack_density::FourthOrder>;
+
+/// Shell in space with the paper's laws: neo-Hooke and Canham, surface-stretch split, cubic degradation, fourth-order
+/// density, degree 2.
+using Shell = BrittleShell<2, 3, split::SurfaceStretch<material::NeoHooke, material::Canham>, degradation::Cubic,
+                           crack_density::FourthOrder>;
+
+/// Koiter's shell of published benchmarks: St. Venant-Kirchhoff in plane stress with its bending, without a split.
+template <int degree>
+using KoiterShell = BrittleShell<degree, 3, split::None<material::StVenantKirchhoff, material::Koiter>,
+                                 degradation::Cubic, crack_density::FourthOrder>;
 } // namespace models
 
 extern template class Assembler<models::Plate>;
@@ -32,5 +44,16 @@ extern template class MonolithicSolver<models::Plate, Newmark>;
 extern template class Assembler<models::UnsplitPlate>;
 extern template class MonolithicSolver<models::UnsplitPlate, GeneralizedAlpha>;
 extern template class MonolithicSolver<models::UnsplitPlate, Newmark>;
+
+extern template class Assembler<models::Shell>;
+extern template class MonolithicSolver<models::Shell, GeneralizedAlpha>;
+extern template class StaticSolver<models::Shell>;
+
+extern template class Assembler<models::KoiterShell<2>>;
+extern template class Assembler<models::KoiterShell<3>>;
+extern template class Assembler<models::KoiterShell<4>>;
+extern template class StaticSolver<models::KoiterShell<2>>;
+extern template class StaticSolver<models::KoiterShell<3>>;
+extern template class StaticSolver<models::KoiterShell<4>>;
 
 } // namespace sherd

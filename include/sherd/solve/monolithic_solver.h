@@ -9,7 +9,7 @@
 #include <sherd/base/timers.h>
 #include <sherd/material/wave_speeds.h>
 #include <sherd/solve/newton_settings.h>
-#include <sherd/space/supports.h>
+#include <sherd/solve/supported_unknowns.h>
 #include <sherd/time/integrator.h>
 #include <sherd/time/update.h>
 
@@ -98,14 +98,12 @@ private:
     double larger() const { return std::max(displacement, phase); }
   };
 
-  bool   find_stable_state(System &system, Result &result);
-  bool   iterate(System &system, Result &result);
-  void   leave_false_branch(System &system, const Vector &start, Result &result);
-  bool   on_stable_branch(System &system, Result &result);
-  Norms  linearise(System &system, PhaseTangent tangent);
-  void   solve_increment(System &system, Result &result);
-  void   constrain_rows(const std::vector<char> &fixed);
-  double supported_position(const Constraint &constraint, double time) const;
+  bool  find_stable_state(System &system, Result &result);
+  bool  iterate(System &system, Result &result);
+  void  leave_false_branch(System &system, const Vector &start, Result &result);
+  bool  on_stable_branch(System &system, Result &result);
+  Norms linearise(System &system, PhaseTangent tangent);
+  void  solve_increment(System &system, Result &result);
 
   const Model                        *model_;
   const ShellSpace<degree, spacedim> *space_;
@@ -114,13 +112,12 @@ private:
   Integrator                          integrator_;
   NewtonSettings                      settings_;
 
-  std::optional<Assembler<Model>> assembler_;
-  std::optional<Matrix>           matrix_;
-  LinearSolver                    linear_solver_;
-  std::vector<Constraint>         constraints_;
-  std::vector<char>               fixed_; ///< 1 for a supported unknown, shape=(n_owned * n_fields)
-  std::optional<Vector>           total_force_;
-  PhaseTimers                     timers_;
+  std::optional<Assembler<Model>>                    assembler_;
+  std::optional<Matrix>                              matrix_;
+  LinearSolver                                       linear_solver_;
+  std::optional<SupportedUnknowns<degree, spacedim>> supported_;
+  std::optional<Vector>                              total_force_;
+  PhaseTimers                                        timers_;
 };
 
 } // namespace sherd

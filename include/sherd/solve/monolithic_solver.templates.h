@@ -22,26 +22,28 @@ struct MonolithicSolver<Model, Integrator>::System
   Vector                   phase;
   const QuadratureField   &history;
   const std::vector<char> &fixed; ///< 1 for an unknown that does not move, shape=(n_owned * n_fields)
-  Vector                   load;  ///< f_ext at its level, block n_fields
+  LoadValues<Model>        loads; ///< at its level
 
+  Vector external;     ///< f_ext, block n_fields
   Vector position;     ///< at n + alpha_f
   Vector acceleration; ///< at n + alpha_m
   Vector residual;     ///< block n_fields
   Vector increment;    ///< block n_fields
 
   System(const Stage &stage_, const Motion &old_, Motion next_, Vector phase_, const QuadratureField &history_,
-         const std::vector<char> &fixed_, Vector load_)
+         const std::vector<char> &fixed_, LoadValues<Model> loads_)
       : stage(stage_),
         old(old_),
         next(std::move(next_)),
         phase(std::move(phase_)),
         history(history_),
         fixed(fixed_),
-        load(std::move(load_)),
+        loads(std::move(loads_)),
+        external(phase.shared_distribution(), n_fields),
         position(next.position),
         acceleration(next.acceleration),
-        residual(load),
-        increment(load)
+        residual(external),
+        increment(external)
   {
     update_levels();
   }
@@ -92,14 +94,10 @@ template <class Model, TimeIntegrator Integrator>
 void MonolithicSolver<Model, Integrator>::rebuild(const StateType &state)
 {
   const auto timing = timers_.measure("set-up");
-  assembler_.emplace(*model_, *space_, state.distribution);
+  supported_.emplace(*supports_, *space_);
+  assembler_.emplace(*model_, *space_, state.distribution, supported_->ties());
   matrix_.emplace(assembler_->make_matrix());
   linear_solver_.forget();
-  constraints_ = constraints(*supports_, *space_);
-  fixed_.assign(state.distribution->n_owned() * n_fields, 0);
-  for (const auto &c : constraints_)
-    if (c.point < state.distribution->n_owned())
-      fixed_[c.point * n_fields + c.component] = 1;
   total_force_.reset();
 }
 
@@ -109,7 +107,8 @@ typename MonolithicSolver<Model, Integrator>::Norms MonolithicSolver<Model, Inte
 {
   const auto timing = timers_.measure("assembly");
   Vector     force(assembler_->distribution(), n_fields);
-  assembler_->linearise(system.level(), system.history, system.stage.mass_weight(), tangent, force, *matrix_);
+  assembler_->linearise(system.level(), system.history, system.stage.mass_weight(), tangent, system.loads, force,
+                        system.external, *matrix_);
 
   // Squared norms over the owned unknowns: residual, load, reaction of the supports, inertia (lumped).
   double       sums[4]  = {0., 0., 0., 0.};
@@ -121,12 +120,12 @@ typename MonolithicSolver<Model, Integrator>::Norms MonolithicSolver<Model, Inte
       for (int c = 0; c < spacedim; ++c)
         {
           const int    k        = i * n_fields + c;
-          const double residual = system.load.local()[k] - force.local()[k];
+          const double residual = system.external.local()[k] - force.local()[k];
           const double inertia =
               model_->mass * assembler_->point_area()[i] * system.acceleration.local()[i * spacedim + c];
           system.residual.local()[k] = system.fixed[k] ? 0. : residual;
           sums[system.fixed[k] ? 2 : 0] += residual * residual;
-          sums[1] += system.load.local()[k] * system.load.local()[k];
+          sums[1] += system.external.local()[k] * system.external.local()[k];
           sums[3] += inertia * inertia;
           peaks[1] = std::max(peaks[1], std::abs(system.position.local()[i * spacedim + c]));
         }
@@ -160,31 +159,14 @@ void MonolithicSolver<Model, Integrator>::solve_increment(System &system, Result
   SolveReport report;
   {
     const auto timing = timers_.measure("solve");
-    constrain_rows(system.fixed);
+    decouple_rows(*matrix_, system.fixed);
     report = linear_solver_.solve(*matrix_, system.residual, system.increment);
+    supported_->complete(system.increment);
   }
   timers_.reassign("solve", "preconditioner", report.setup_seconds);
   result.linear += report.iterations;
   if (report.escalated)
     result.messages.push_back(report.message);
-}
-
-template <class Model, TimeIntegrator Integrator>
-void MonolithicSolver<Model, Integrator>::constrain_rows(const std::vector<char> &fixed)
-{
-  auto values = matrix_->values();
-  for (int a = 0; a < assembler_->distribution()->n_owned(); ++a)
-    for (int c = 0; c < n_fields; ++c)
-      if (fixed[a * n_fields + c])
-        {
-          const auto row      = matrix_->graph().row(a);
-          const auto k        = std::lower_bound(row.begin(), row.end(), a) - row.begin();
-          const auto start    = values.begin() + matrix_->row_start(a) + c * matrix_->row_length(a);
-          const auto diagonal = start + k * n_fields + c;
-          const auto kept     = *diagonal;
-          std::fill(start, start + matrix_->row_length(a), 0.);
-          *diagonal = kept;
-        }
 }
 
 template <class Model, TimeIntegrator Integrator>
@@ -296,21 +278,18 @@ MonolithicSolver<Model, Integrator>::attempt(const StateType &state, double dt)
   const double previous_dt = state.step_size > 0. ? state.step_size : dt;
   const Stage  stage       = integrator_.stage(dt, previous_dt);
   const Motion old{state.position, state.velocity, state.acceleration};
-  Motion       next = predict(stage, old);
-  for (const auto &c : constraints_)
-    {
-      const int i = c.point * spacedim + c.component;
-      move(stage, next, i, supported_position(c, state.time + dt) - next.position.local()[i]);
-    }
+  Motion       next  = predict(stage, old);
+  Vector       moves = supported_->moves(next.position, state.time + dt);
+  for (std::size_t i = 0; i < moves.local().size(); ++i)
+    if (moves.local()[i] != 0.)
+      move(stage, next, i, moves.local()[i]);
 
   Vector phase = state.phase;
   for (std::size_t a = 0; a < phase.local().size(); ++a)
     phase.local()[a] += dt / previous_dt * (state.phase.local()[a] - state.previous_phase.local()[a]);
 
-  Vector load(assembler_->distribution(), n_fields);
-  assembler_->add_loads(*loads_, state.time + stage.alpha_f * dt, load);
-
-  System system(stage, old, std::move(next), std::move(phase), state.history, fixed_, load);
+  System system(stage, old, std::move(next), std::move(phase), state.history, supported_->fixed(),
+                assembler_->evaluate(*loads_, state.time + stage.alpha_f * dt));
   Result result;
   if (!find_stable_state(system, result))
     return result;
@@ -333,7 +312,7 @@ MonolithicSolver<Model, Integrator>::attempt(const StateType &state, double dt)
       {
         const int    k    = i * n_fields + c;
         const double move = accepted.position.local()[i * spacedim + c] - state.position.local()[i * spacedim + c];
-        result.external_work += (fixed_[k] ? total_force_->local()[k] : load.local()[k]) * move;
+        result.external_work += (supported_->is_held(k) ? total_force_->local()[k] : system.external.local()[k]) * move;
       }
   MPI_Allreduce(MPI_IN_PLACE, &result.external_work, 1, MPI_DOUBLE, MPI_SUM, assembler_->distribution()->comm());
   result.state = std::move(accepted);
@@ -341,24 +320,18 @@ MonolithicSolver<Model, Integrator>::attempt(const StateType &state, double dt)
 }
 
 template <class Model, TimeIntegrator Integrator>
-double MonolithicSolver<Model, Integrator>::supported_position(const Constraint &c, double time) const
-{
-  const auto point  = assembler_->distribution()->global(c.point);
-  const auto [p, i] = space_->surface().locate_point(static_cast<int>(point));
-  return space_->surface().patch(p).control_points(i, c.component) + supports_->list()[c.support].displacement(time);
-}
-
-template <class Model, TimeIntegrator Integrator>
 void MonolithicSolver<Model, Integrator>::equilibrate_phase(StateType &state)
 {
   // All displacements fixed, at a level that is the state itself: only the phase moves.
-  std::vector<char> fixed(fixed_.size(), 1);
-  for (std::size_t i = spacedim; i < fixed.size(); i += n_fields)
-    fixed[i] = 0;
+  auto fixed = supported_->fixed();
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    if (i % n_fields != spacedim)
+      fixed[i] = 1;
+  supported_->complete_phase(state.phase);
   const Motion frozen{state.position, state.velocity, state.acceleration};
   const Stage  here{1., 1., 1., 1., 1.};
-  System system(here, frozen, frozen, state.phase, state.history, fixed, Vector(assembler_->distribution(), n_fields));
-  Result result;
+  System       system(here, frozen, frozen, state.phase, state.history, fixed, {});
+  Result       result;
   if (!find_stable_state(system, result))
     throw NoConvergence("initial phase field: " + result.failure);
   state.phase          = system.phase;
@@ -368,19 +341,22 @@ void MonolithicSolver<Model, Integrator>::equilibrate_phase(StateType &state)
 template <class Model, TimeIntegrator Integrator>
 void MonolithicSolver<Model, Integrator>::set_initial_acceleration(StateType &state)
 {
-  Vector force(assembler_->distribution(), n_fields), acceleration(assembler_->distribution(), n_fields);
-  Vector residual(assembler_->distribution(), n_fields);
-  Vector zero = state.acceleration;
+  const auto &distribution = state.distribution;
+  Vector      force(distribution, n_fields), residual(distribution, n_fields), acceleration(distribution, n_fields);
+  Vector      zero = state.acceleration;
   zero.fill(0.);
-  assembler_->force({state.position, zero, state.phase}, state.history, force);
-  assembler_->add_loads(*loads_, state.time, residual);
+  const BalanceLevel level{state.position, zero, state.phase};
+  assembler_->force(level, state.history, force);
+  assembler_->external_force(level, assembler_->evaluate(*loads_, state.time), residual);
   for (std::size_t k = 0; k < residual.owned().size(); ++k)
-    residual.local()[k] = fixed_[k] || k % n_fields == spacedim ? 0. : residual.local()[k] - force.local()[k];
+    residual.local()[k] =
+        supported_->fixed()[k] || k % n_fields == spacedim ? 0. : residual.local()[k] - force.local()[k];
   assembler_->mass_matrix(*matrix_);
-  constrain_rows(fixed_);
+  decouple_rows(*matrix_, supported_->fixed());
   auto settings      = settings_.linear;
   settings.tolerance = 1e-12;
   LinearSolver(settings).solve(*matrix_, residual, acceleration);
+  supported_->complete(acceleration);
   for (int a = 0; a < assembler_->distribution()->n_local(); ++a)
     for (int c = 0; c < spacedim; ++c)
       state.acceleration.local()[a * spacedim + c] = acceleration.local()[a * n_fields + c];
@@ -389,23 +365,7 @@ void MonolithicSolver<Model, Integrator>::set_initial_acceleration(StateType &st
 template <class Model, TimeIntegrator Integrator>
 auto MonolithicSolver<Model, Integrator>::reaction(const std::string &edge) const -> Point<spacedim>
 {
-  Point<spacedim> sum = Point<spacedim>::Zero();
-  if (total_force_)
-    {
-      // Sides of one name may meet in a corner, which counts once.
-      std::vector<int> points;
-      for (const auto &side : space_->surface().edge(edge))
-        for (const int point : points_along(space_->surface(), side))
-          points.push_back(point);
-      std::sort(points.begin(), points.end());
-      points.erase(std::unique(points.begin(), points.end()), points.end());
-      for (const int point : points)
-        if (const int a = space_->distribution().local[point]; a >= 0 && a < assembler_->distribution()->n_owned())
-          for (int c = 0; c < spacedim; ++c)
-            sum[c] += total_force_->local()[a * n_fields + c];
-    }
-  MPI_Allreduce(MPI_IN_PLACE, sum.data(), spacedim, MPI_DOUBLE, MPI_SUM, assembler_->distribution()->comm());
-  return sum;
+  return total_force_ ? edge_force(*space_, *total_force_, edge) : Point<spacedim>(Point<spacedim>::Zero());
 }
 
 } // namespace sherd

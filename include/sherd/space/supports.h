@@ -1,9 +1,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <sherd/space/region.h>
 #include <sherd/space/shell_space.h>
 
 namespace sherd
@@ -17,35 +19,96 @@ enum class Component
   z = 2
 };
 
-/// Strong supports on named edges of a surface: a displacement component is prescribed as a function of time, the same
-/// along the whole edge. Declared once; they follow refinement because they name edges, not unknowns.
+/// Rows of control points that a support on an edge holds.
+enum class Rows
+{
+  first,       ///< position
+  first_second ///< position and tangent plane (points_along and second_row_along)
+};
+
+/// Strong supports of a surface: displacement components that are zero or prescribed functions of time, the same on the
+/// whole region, and symmetries. Declared once; they follow refinement because they name edges, not unknowns. Where
+/// regions meet, the support declared last holds.
 class Supports
 {
 public:
   struct Support
   {
-    std::string                   edge;
-    Component                     component;
+    Region                        region;
+    std::optional<Component>      component; ///< all of them if empty
+    Rows                          rows;
     std::function<double(double)> displacement; ///< of time, [length]
   };
 
-  /// u_component = 0 on @p edge.
-  void fix(const std::string &edge, Component component)
+  /// An edge across which values are level.
+  struct Symmetry
   {
-    prescribe(edge, component, [](double) { return 0.; });
-  }
+    std::string              edge;
+    std::optional<Component> normal; ///< of the plane of symmetry; empty: of the phase alone
+  };
 
-  /// u_component = displacement(t) on @p edge.
-  void prescribe(const std::string &edge, Component component, std::function<double(double)> displacement)
-  {
-    supports_.push_back({edge, component, std::move(displacement)});
-  }
+  /// u_component = 0 on @p region.
+  void fix(Region region, Component component);
 
-  const std::vector<Support> &list() const { return supports_; }
+  /// u = 0 on @p region.
+  void fix(Region region);
+
+  /// u_component = displacement(t) on @p region.
+  void prescribe(Region region, Component component, std::function<double(double)> displacement);
+
+  /// u = 0 on @p edge, and its tangent plane stays: the two outer rows of control points are fixed.  theory G.5
+  void clamp(const std::string &edge);
+
+  /// u_component = displacement(t) on @p edge without a part in any rotation: both outer rows move alike. With every
+  /// component clamped or prescribed so, the edge translates and its tangent plane keeps its direction.
+  void prescribe_clamped(const std::string &edge, Component component, std::function<double(double)> displacement);
+
+  /// @p edge lies in a plane of symmetry with the axis @p normal as its normal: u_normal = 0 on it, and the derivatives
+  /// of the other components and of the phase across it vanish (ties, for the fourth-order phase field as well).
+  /// The surface has to meet the plane at right angles, and so have the parameter lines.  theory G.5
+  void symmetry(const std::string &edge, Component normal);
+
+  /// The derivative of the phase across @p edge vanishes; displacements are not touched.
+  void phase_symmetry(const std::string &edge);
+
+  const std::vector<Support>  &list() const { return supports_; }
+  const std::vector<Symmetry> &symmetries() const { return symmetries_; }
 
 private:
-  std::vector<Support> supports_;
+  std::vector<Support>  supports_;
+  std::vector<Symmetry> symmetries_;
 };
+
+/// The number of @p component. @p where names the support in the message.
+/// @throws InvalidParameter   a component beyond @p spacedim, with those there are
+int component_index(Component component, int spacedim, const std::string &where);
+
+/// Which support holds each displacement component, -1: none; entry point * spacedim + component, surface numbering.
+/// @throws InvalidParameter   from points_of; a component beyond the dimension of the space
+template <int degree, int spacedim>
+std::vector<int> holders(const Supports &supports, const Surface<degree, spacedim> &surface)
+{
+  std::vector<int> chosen(surface.n_control_points() * spacedim, -1);
+  for (std::size_t s = 0; s < supports.list().size(); ++s)
+    {
+      const auto &support = supports.list()[s];
+      int         first = 0, last = spacedim;
+      if (support.component)
+        {
+          first = component_index(*support.component, spacedim, describe(support.region));
+          last  = first + 1;
+        }
+      auto points = points_of(support.region, surface);
+      if (support.rows == Rows::first_second)
+        for (const auto &edge : surface.edge(std::get<std::string>(support.region.part)))
+          for (const int point : second_row_along(surface, edge))
+            points.push_back(point);
+      for (const int point : points)
+        for (int component = first; component < last; ++component)
+          chosen[point * spacedim + component] = static_cast<int>(s);
+    }
+  return chosen;
+}
 
 /// One supported unknown of this rank.
 struct Constraint
@@ -55,24 +118,13 @@ struct Constraint
   int support;   ///< index into Supports::list()
 };
 
-/// Supported unknowns among the local control points of @p space, each once; where edges meet, the support declared
-/// last holds. @throws InvalidParameter   unknown edge; a component beyond the dimension of the space
+/// Supported unknowns among the local control points of @p space, each once; where regions meet, the support declared
+/// last holds. @throws InvalidParameter   as holders
 template <int degree, int spacedim>
 std::vector<Constraint> constraints(const Supports &supports, const ShellSpace<degree, spacedim> &space)
 {
-  const auto      &local = space.distribution().local;
-  std::vector<int> chosen(space.surface().n_control_points() * spacedim, -1);
-  for (std::size_t s = 0; s < supports.list().size(); ++s)
-    {
-      const auto &support   = supports.list()[s];
-      const int   component = static_cast<int>(support.component);
-      if (component >= spacedim)
-        throw InvalidParameter("support of edge \"" + support.edge + "\": component " + std::to_string(component) +
-                               " does not exist, the surface lies in " + std::to_string(spacedim) + " dimensions");
-      for (const auto &edge : space.surface().edge(support.edge))
-        for (const int point : points_along(space.surface(), edge))
-          chosen[point * spacedim + component] = static_cast<int>(s);
-    }
+  const auto             &local  = space.distribution().local;
+  const auto              chosen = holders(supports, space.surface());
   std::vector<Constraint> result;
   for (int i = 0; i < static_cast<int>(chosen.size()); ++i)
     if (chosen[i] >= 0 && local[i / spacedim] >= 0)

@@ -3,6 +3,7 @@
 #include <sherd/material/split/split.h>
 #include <sherd/verify/random_state.h>
 #include <sherd/verify/report.h>
+#include <sherd/verify/shell_split.h>
 
 #include <algorithm>
 
@@ -10,7 +11,7 @@ namespace sherd::verify
 {
 
 /// Checks an energy split of the plane at random states with J > 1 and J < 1: stresses against energies, tangents
-/// against stresses, energies not negative and zero at rest (theory B).
+/// against stresses, energies not negative and zero at rest (theory B). For splits of the shell see shell_split.h.
 ///
 /// `CHECK(verify::split(my_split).passed())` is a test of a new split.
 /// @param n_states  number of states, half of them stretched and half compressed.

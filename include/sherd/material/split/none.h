@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sherd/material/bending.h>
 #include <sherd/material/neo_hooke.h>
 #include <sherd/material/split/split.h>
 
@@ -7,7 +8,7 @@ namespace sherd::split
 {
 
 /// No split, theory B.4 (1): all elastic energy is active, in compression too.
-template <MembraneLaw Membrane, class Bending = material::NoBending>
+template <MembraneLaw Membrane, BendingLaw Bending = material::NoBending>
 class None
 {
 public:
@@ -20,8 +21,17 @@ public:
 
   SplitResponse<2> respond(const SurfacePoint<2> &point) const
   {
-    const Response<2> active = membrane_.dilatation(point) + membrane_.deviator(point);
+    const Response<2> active = membrane_.respond(point);
     return {active.energy, 0., active.stress, Stress<2>::zero(), active.tangent, Tangent<2>::zero(), active.stress};
+  }
+
+  SplitResponse<3> respond(const SurfacePoint<3> &point) const
+  {
+    const Response<2>     membrane = membrane_.respond(point);
+    const BendingResponse bending  = bending_.bend(point);
+    const Stress<3>       stress{membrane.stress.membrane, bending.moment};
+    const Tangent<3>      tangent{membrane.tangent.membrane, Voigt4::Zero(), Voigt4::Zero(), bending.stiffness};
+    return {membrane.energy + bending.energy, 0., stress, Stress<3>::zero(), tangent, Tangent<3>::zero(), stress};
   }
 
 private:
@@ -29,6 +39,6 @@ private:
   [[no_unique_address]] Bending bending_;
 };
 
-static_assert(EnergySplit<None<material::NeoHooke>, 2>);
+static_assert(EnergySplit<None<material::NeoHooke>, 2> && EnergySplit<None<material::NeoHooke>, 3>);
 
 } // namespace sherd::split

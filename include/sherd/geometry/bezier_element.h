@@ -1,5 +1,7 @@
 #pragma once
 
+#include <numeric>
+
 #include <sherd/geometry/patch.h>
 #include <sherd/spline/bernstein.h>
 #include <sherd/spline/extraction.h>
@@ -26,7 +28,7 @@ struct BezierElement
     const auto    size = box.size();
     const auto    B    = bernstein_2d<degree>((u - box.min[0]) / size[0], (v - box.min[1]) / size[1]).value;
     const Weights w    = weights.cwiseProduct(Eigen::Map<const Weights>(B.data()));
-    return values.transpose() * w / w.sum();
+    return values.transpose() * w / std::accumulate(w.begin(), w.end(), 0.);
   }
 };
 

@@ -1,0 +1,20 @@
+#include <sherd/solve/supported_unknowns.h>
+
+namespace sherd
+{
+
+void decouple_rows(Matrix &matrix, const std::vector<char> &fixed)
+{
+  const int n_fields = matrix.block_size();
+  for (int a = 0; a < matrix.distribution().n_owned(); ++a)
+    for (int c = 0; c < n_fields; ++c)
+      if (fixed[a * n_fields + c])
+        {
+          const double kept  = matrix.diagonal(a, c);
+          const auto   start = matrix.values().begin() + matrix.row_start(a) + c * matrix.row_length(a);
+          std::fill(start, start + matrix.row_length(a), 0.);
+          matrix.diagonal(a, c) = kept;
+        }
+}
+
+} // namespace sherd
