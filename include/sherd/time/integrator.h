@@ -20,6 +20,9 @@ struct Stage
   double dt; ///< [time]
   double alpha_m, alpha_f, gamma, beta;
 
+  /// Whether the balance has an inertial force; if not (alpha_m = 0), velocity and acceleration stay zero.
+  bool has_inertia() const { return alpha_m != 0.; }
+
   /// Weight of M in the tangent with respect to x_{n+alpha_f}, alpha_m / (alpha_f beta dt^2) (theory F.2).
   double mass_weight() const { return alpha_m / (alpha_f * beta * dt * dt); }
 };

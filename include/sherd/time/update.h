@@ -30,7 +30,7 @@ inline Motion predict(const Stage &stage, const Motion &old)
   return next;
 }
 
-/// Moves unknown @p i of the end of the step by @p dx, and its rates with it:
+/// Moves unknown @p i of the end of the step by @p dx, and where there is inertia its rates with it:
 ///   x_{n+1} += dx,  a_{n+1} += dx / (beta dt^2),  v_{n+1} += gamma dx / (beta dt).
 ///
 /// From the predictor on this keeps the update formulas of Stage. The rates follow the increments and not the
@@ -39,6 +39,8 @@ inline Motion predict(const Stage &stage, const Motion &old)
 inline void move(const Stage &stage, Motion &next, std::size_t i, double dx)
 {
   next.position.local()[i] += dx;
+  if (!stage.has_inertia())
+    return;
   next.acceleration.local()[i] += dx / (stage.beta * stage.dt * stage.dt);
   next.velocity.local()[i] += stage.gamma * dx / (stage.beta * stage.dt);
 }
