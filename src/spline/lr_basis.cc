@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <sherd/base/exceptions.h>
+#include <sherd/spline/evaluation.h>
 
 #include "function_splitter.h"
 
@@ -171,6 +172,95 @@ LRBasis<degree>::LRBasis(std::vector<double> knots_u, std::vector<double> knots_
       elements_of_function_.end_row();
     }
   functions_of_element_ = elements_of_function_.transposed(n_elements());
+}
+
+template <int degree>
+LRBasis<degree>::LRBasis(LRBasisParts<degree> parts)
+    : initial_knots_{checked(std::move(parts.initial_knots[0]), "u", degree),
+                     checked(std::move(parts.initial_knots[1]), "v", degree)},
+      domain_{{initial_knots_[0].front(), initial_knots_[1].front()},
+              {initial_knots_[0].back(), initial_knots_[1].back()}},
+      mesh_(initial_knots_[0], initial_knots_[1]),
+      tree_(initial_knots_[0], initial_knots_[1], parts.elements),
+      functions_(std::move(parts.functions))
+{
+  for (const auto &line : parts.lines)
+    if (const int d = static_cast<int>(line.direction); line.value != domain_.min[d] && line.value != domain_.max[d])
+      check(line);
+  mesh_.add(parts.lines);
+  mesh_lines_ = mesh_.lines();
+  if (mesh_lines_ != parts.lines)
+    throw InvalidParameter("LR basis: the mesh lines given are not merged and in order, or lack lines of the initial "
+                           "mesh; expected those of LRBasis::mesh_lines");
+  check_elements();
+  check_functions();
+  std::vector<int> elements;
+  for (const auto &function : functions_)
+    {
+      elements.clear();
+      tree_.append_inside(function.support(), elements);
+      for (const int e : elements)
+        elements_of_function_.push_back(e);
+      elements_of_function_.end_row();
+    }
+  functions_of_element_ = elements_of_function_.transposed(n_elements());
+  check_partition_of_unity();
+}
+
+template <int degree>
+void LRBasis<degree>::check_elements() const
+{
+  for (int e = 0; e < n_elements(); ++e)
+    {
+      const Box &box = element(e);
+      for (int d = 0; d < 2; ++d)
+        {
+          const auto direction = static_cast<Direction>(d);
+          const auto crossing  = mesh_.between(direction, box.min[d], box.max[d]);
+          const bool bounded   = mesh_.multiplicity(direction, box.min[d], box.min[1 - d], box.max[1 - d]) > 0 &&
+                               mesh_.multiplicity(direction, box.max[d], box.min[1 - d], box.max[1 - d]) > 0;
+          if (!bounded || std::any_of(crossing.begin(), crossing.end(), [&](const auto &line) {
+                return line.multiplicity(box.min[1 - d], box.max[1 - d]) > 0;
+              }))
+            throw InvalidParameter("LR basis: element " + std::to_string(e) + " is " +
+                                   (bounded ? "crossed" : "not bounded") + " by lines of the mesh");
+        }
+    }
+}
+
+template <int degree>
+void LRBasis<degree>::check_functions() const
+{
+  internal::FunctionSplitter<degree> splitter(mesh_);
+  for (int i = 0; i < n_functions(); ++i)
+    {
+      const auto &[knots, gamma] = functions_[i];
+      bool valid                 = gamma > 0. && gamma <= 1. + 1e-10;
+      for (int d = 0; d < 2; ++d)
+        valid = valid && std::is_sorted(knots[d].begin(), knots[d].end()) && domain_.min[d] <= knots[d].front() &&
+                knots[d].front() < knots[d].back() && knots[d].back() <= domain_.max[d];
+      if (!valid || splitter.is_crossed(functions_[i]))
+        throw InvalidParameter("LR basis: function " + std::to_string(i) + " has " +
+                               (valid ? "a support that lines of the mesh cross"
+                                      : "knots that do not ascend inside the domain or a weight outside (0, 1]"));
+    }
+}
+
+template <int degree>
+void LRBasis<degree>::check_partition_of_unity() const
+{
+  for (int e = 0; e < n_elements(); ++e)
+    {
+      const auto [u, v] = element(e).centre();
+      double sum        = 0.;
+      for (const auto &value : evaluate(*this, e, u, v))
+        sum += value.value;
+      const auto n = functions_of(e).size();
+      if (n < (degree + 1) * (degree + 1) || !(std::abs(sum - 1.) < 1e-10))
+        throw InvalidParameter("LR basis: element " + std::to_string(e) + " has " + std::to_string(n) +
+                               " functions whose sum is " + text(sum) + " at its centre, expected at least " +
+                               std::to_string((degree + 1) * (degree + 1)) + " and 1");
+    }
 }
 
 template <int degree>

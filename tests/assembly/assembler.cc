@@ -10,58 +10,6 @@ using namespace sherd::test;
 namespace
 {
 
-struct DenseSystem
-{
-  Eigen::VectorXd force;
-  Eigen::MatrixXd matrix;
-};
-
-/// Sums element arrays on control points, element by element, into dense arrays.
-DenseSystem assemble_dense(const Body &body, const GlobalState<2, 2> &state, double mass_weight)
-{
-  const int   n = body.surface.n_control_points(), n_b = 9;
-  DenseSystem system{Eigen::VectorXd::Zero(3 * n), Eigen::MatrixXd::Zero(3 * n, 3 * n)};
-  for (int e = 0; e < body.surface.n_elements(); ++e)
-    {
-      const auto            data = element_data(body.model, body.surface, e);
-      const Eigen::MatrixXd E    = data.geometry.extraction;
-      const int             size = static_cast<int>(E.rows());
-      ElementFields<Sheet>  f{};
-      for (int A = 0; A < size; ++A)
-        for (int b = 0; b < n_b; ++b)
-          {
-            const int i = data.geometry.points[A];
-            for (int d = 0; d < 2; ++d)
-              {
-                f.position[d][b] += E(A, b) * state.position(i, d);
-                f.acceleration[d][b] += E(A, b) * state.acceleration(i, d);
-              }
-            f.phase[b] += E(A, b) * state.phase[i];
-          }
-      const Eigen::Matrix<double, 1, 9> history = state.history.row(e);
-      ElementVector<Sheet>              vector;
-      ElementMatrix<Sheet>              tangent;
-      element_tangent(body.model, data, f, history.data(), mass_weight, PhaseTangent::consistent, vector, tangent);
-      for (int A = 0; A < size; ++A)
-        for (int c = 0; c < 3; ++c)
-          for (int b = 0; b < n_b; ++b)
-            system.force[3 * data.geometry.points[A] + c] += E(A, b) * vector.value[c][b];
-      for (int c = 0; c < 3; ++c)
-        for (int d = 0; d < 3; ++d)
-          {
-            Eigen::MatrixXd block(n_b, n_b);
-            for (int a = 0; a < n_b; ++a)
-              for (int b = 0; b < n_b; ++b)
-                block(a, b) = tangent.value[c * n_b + a][d * n_b + b];
-            block = E * block * E.transpose();
-            for (int A = 0; A < size; ++A)
-              for (int B = 0; B < size; ++B)
-                system.matrix(3 * data.geometry.points[A] + c, 3 * data.geometry.points[B] + d) += block(A, B);
-          }
-    }
-  return system;
-}
-
 Surface<2, 2> refined_annulus()
 {
   auto surface = quarter_annulus<2, 2>(1., 3.);

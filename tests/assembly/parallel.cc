@@ -2,8 +2,6 @@
 // ranks: 1 2 3 10
 #include <catch2/catch.hpp>
 
-#include <omp.h>
-
 #include <assembly/body.h>
 
 using namespace sherd;
@@ -11,19 +9,6 @@ using namespace sherd::test;
 
 namespace
 {
-
-/// Sets the number of threads for a while.
-class Threads
-{
-public:
-  explicit Threads(int n) : before_(omp_get_max_threads()) { omp_set_num_threads(n); }
-  ~Threads() { omp_set_num_threads(before_); }
-  Threads(const Threads &)            = delete;
-  Threads &operator=(const Threads &) = delete;
-
-private:
-  int before_;
-};
 
 /// Everything that threads sum, as bits.
 std::vector<double> all_results(const Body &body)

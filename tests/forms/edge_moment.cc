@@ -138,7 +138,7 @@ using Degrees = std::tuple<std::integral_constant<int, 2>, std::integral_constan
 TEMPLATE_LIST_TEST_CASE("The tangent of an edge moment is the derivative of its force", "", Degrees)
 {
   constexpr int degree  = TestType::value;
-  const auto    shape   = GENERATE(Curved::distorted, Curved::overloaded, Curved::rational);
+  const auto    shape   = GENERATE(Shape::distorted, Shape::overloaded, Shape::rational);
   const auto    surface = curved_surface<degree>(shape);
   const auto    moment  = varying_moment<degree>();
   std::size_t   most    = 0;
@@ -159,14 +159,14 @@ TEMPLATE_LIST_TEST_CASE("The tangent of an edge moment is the derivative of its 
       CHECK((K - by_theory).norm() < 1e-13 * K.norm());
       CHECK((edge_moment_force(piece, x, moment) - f).norm() < 1e-13 * f.norm());
     }
-  if (shape == Curved::overloaded)
+  if (shape == Shape::overloaded)
     CHECK(most > (degree + 1) * (degree + 1));
 }
 
 TEMPLATE_LIST_TEST_CASE("The work of an edge moment is that on the turning normal", "", Degrees)
 {
   constexpr int degree  = TestType::value;
-  const auto    surface = curved_surface<degree>(GENERATE(Curved::overloaded, Curved::rational));
+  const auto    surface = curved_surface<degree>(GENERATE(Shape::overloaded, Shape::rational));
   const auto    moment  = varying_moment<degree>();
   for (const auto &piece : one_piece_a_side(surface))
     {
@@ -257,15 +257,15 @@ TEST_CASE("Moment on curved edges: no force, and the moment of n x nu")
 TEMPLATE_LIST_TEST_CASE("Edge moments turn with the surface, and change sign with its normal", "", Degrees)
 {
   constexpr int degree  = TestType::value;
-  const auto    surface = curved_surface<degree>(Curved::distorted);
+  const auto    surface = curved_surface<degree>(Shape::distorted);
   const auto    moment  = varying_moment<degree>();
   const auto    Q       = rotation();
   SECTION("rotation")
   {
-    for (const auto &piece : one_piece_a_side(curved_surface<degree>(Curved::rational)))
+    for (const auto &piece : one_piece_a_side(curved_surface<degree>(Shape::rational)))
       {
         const auto x =
-            disturbed(rows_of(curved_surface<degree>(Curved::rational).control_points(), piece.points), .05, 5);
+            disturbed(rows_of(curved_surface<degree>(Shape::rational).control_points(), piece.points), .05, 5);
         ControlValues<3> turned = x * Q.transpose();
         turned.rowwise() += Eigen::RowVector3d(3., -1., 2.);
         const auto f = edge_moment_force(piece, x, moment), g = edge_moment_force(piece, turned, moment);

@@ -4,11 +4,12 @@
 
 #include <geometry/sample_surfaces.h>
 
-/// Curved surfaces in space for tests of loads.
+/// Curved surfaces in space for tests of forms.
 namespace sherd::test
 {
 
-enum class Curved
+/// Elements of sample surfaces.
+enum class Shape
 {
   distorted,
   overloaded, ///< LR elements of more than (degree + 1)^2 functions
@@ -36,9 +37,9 @@ Surface<degree, 3> bulged(const Surface<degree, 3> &surface)
 
 /// Surface with elements of size about 1, curved edges, curved and skew inside.
 template <int degree>
-Surface<degree, 3> curved_surface(Curved shape)
+Surface<degree, 3> curved_surface(Shape shape)
 {
-  if (shape == Curved::rational)
+  if (shape == Shape::rational)
     {
       auto cone = quarter_turn<degree, 3>(1., 0., 3., 1.);
       refine_everywhere(cone, 1);
@@ -49,7 +50,7 @@ Surface<degree, 3> curved_surface(Curved shape)
       return bulged<degree>({{std::move(patch)}, cone.edges()});
     }
   auto surface = bulged(distorted(shapes::plate<degree, 3>({4., 4.}, {4, 4}), .15));
-  if (shape == Curved::overloaded)
+  if (shape == Shape::overloaded)
     refine_at_random(surface, 3, 4, 73);
   return surface;
 }

@@ -101,10 +101,10 @@ public:
 };
 
 template <int degree>
-LoadedElement<degree> sample_element(Curved shape)
+LoadedElement<degree> sample_element(Shape shape)
 {
   const auto surface = curved_surface<degree>(shape);
-  return {surface, shape == Curved::overloaded ? most_loaded_element(surface) : surface.n_elements() / 2};
+  return {surface, shape == Shape::overloaded ? most_loaded_element(surface) : surface.n_elements() / 2};
 }
 
 template <int degree>
@@ -225,9 +225,9 @@ using Degrees = std::tuple<std::integral_constant<int, 2>, std::integral_constan
 TEMPLATE_LIST_TEST_CASE("The load stiffness is the derivative of the pressure", "", Degrees)
 {
   constexpr int degree  = TestType::value;
-  const auto    shape   = GENERATE(Curved::distorted, Curved::overloaded, Curved::rational);
+  const auto    shape   = GENERATE(Shape::distorted, Shape::overloaded, Shape::rational);
   const auto    element = sample_element<degree>(shape);
-  if (shape == Curved::overloaded)
+  if (shape == Shape::overloaded)
     REQUIRE(element.n() > (degree + 1) * (degree + 1));
   // Phases away from zero all over the path of the difference quotients: released in part, and closed.
   const double    phi       = GENERATE(.6, -.5);
@@ -261,7 +261,7 @@ TEMPLATE_LIST_TEST_CASE("The load stiffness is the derivative of the pressure", 
 TEMPLATE_LIST_TEST_CASE("Load stiffness with the normal and the contravariant tangents of the theory", "", Degrees)
 {
   constexpr int                      degree   = TestType::value;
-  const auto                         element  = sample_element<degree>(GENERATE(Curved::overloaded, Curved::rational));
+  const auto                         element  = sample_element<degree>(GENERATE(Shape::overloaded, Shape::rational));
   const auto                         y        = element.deformed(.06, .6, 5);
   const auto                         pressure = varying_pressure<degree>(1.3, -.7);
   const Eigen::MatrixXd             &E        = element.data.geometry.extraction;
@@ -304,7 +304,7 @@ TEMPLATE_LIST_TEST_CASE("Forms of pressure add to what they are given", "", Degr
 {
   constexpr int degree          = TestType::value;
   using Model                   = Shell<degree>;
-  const auto           element  = sample_element<degree>(Curved::distorted);
+  const auto           element  = sample_element<degree>(Shape::distorted);
   const auto           fields   = element.fields(element.deformed(.06, .6, 5));
   const auto           pressure = varying_pressure<degree>(1.3, -.7);
   ElementVector<Model> f{}, g;
@@ -332,7 +332,7 @@ TEMPLATE_LIST_TEST_CASE("Forms of pressure add to what they are given", "", Degr
 TEMPLATE_LIST_TEST_CASE("A phase of zero or less lets all of the pressure out", "", Degrees)
 {
   constexpr int degree  = TestType::value;
-  const auto    element = sample_element<degree>(Curved::rational);
+  const auto    element = sample_element<degree>(Shape::rational);
   auto          y       = element.deformed(.06, -.4, 5);
   const auto    release = varying_pressure<degree>(0., 2.);
   CHECK(element.force(y, release).norm() == 0.);
@@ -367,7 +367,7 @@ TEST_CASE("Pressure on a flat plate is p times area along the normal")
 TEMPLATE_LIST_TEST_CASE("Resultant pressure of a bulged sheet is that of its boundary", "", Degrees)
 {
   constexpr int  degree  = TestType::value;
-  const auto     surface = curved_surface<degree>(Curved::overloaded);
+  const auto     surface = curved_surface<degree>(Shape::overloaded);
   const auto     x       = disturbed(surface.control_points(), .05, 5);
   const Point<3> force   = unit_pressure_forces(surface, x).colwise().sum().transpose();
   // All polynomials that the rules integrate exactly.
@@ -414,7 +414,7 @@ TEMPLATE_LIST_TEST_CASE("Pressure turns with the surface, and its sign with the 
   constexpr int degree = TestType::value;
   SECTION("rotation")
   {
-    const auto       surface = curved_surface<degree>(GENERATE(Curved::overloaded, Curved::rational));
+    const auto       surface = curved_surface<degree>(GENERATE(Shape::overloaded, Shape::rational));
     const auto       x       = disturbed(surface.control_points(), .05, 5);
     const auto       Q       = rotation();
     ControlValues<3> turned  = x * Q.transpose();
@@ -424,7 +424,7 @@ TEMPLATE_LIST_TEST_CASE("Pressure turns with the surface, and its sign with the 
   }
   SECTION("normal")
   {
-    const auto surface = curved_surface<degree>(Curved::distorted);
+    const auto surface = curved_surface<degree>(Shape::distorted);
     const auto other   = turned_over(surface, 4, 4);
     const auto f       = unit_pressure_forces(surface, surface.control_points());
     const auto g       = unit_pressure_forces(other, other.control_points());
@@ -438,7 +438,7 @@ TEMPLATE_LIST_TEST_CASE("Pressure turns with the surface, and its sign with the 
 
 TEST_CASE("Declared pressures are summed at the quadrature points")
 {
-  const auto element = sample_element<2>(Curved::rational);
+  const auto element = sample_element<2>(Shape::rational);
   Loads<3>   loads;
   CHECK(element_pressure(element.data, loads, 2.).constant == std::array<double, 9>{});
   loads.pressure([](const Point<3> &X, double t) { return X[0] * t; }, PressureRelease::none);

@@ -18,9 +18,20 @@ namespace sherd
 class EnergyBalance
 {
 public:
+  /// What it remembers, for checkpoints [energy].
+  struct State
+  {
+    double   initial = 0.; ///< sum of the energies at the start
+    Energies now;
+    double   work = 0., irreversible = 0., largest = 0.;
+  };
+
+  /// Goes on from a checkpoint.
+  explicit EnergyBalance(const State &state) : state_(state) {}
+
   /// @param initial   energies at the start of the run
   explicit EnergyBalance(const Energies &initial)
-      : initial_(initial.elastic() + initial.kinetic + initial.fracture), now_(initial)
+      : state_{.initial = initial.elastic() + initial.kinetic + initial.fracture, .now = initial}
   {
     note_largest();
   }
@@ -28,32 +39,34 @@ public:
   /// Adds an accepted step.
   void add(const StepSummary &step)
   {
-    now_ = step.energies;
-    work_ += step.external_work;
-    irreversible_ += step.withheld_work;
+    state_.now = step.energies;
+    state_.work += step.external_work;
+    state_.irreversible += step.withheld_work;
     note_largest();
   }
 
-  double external_work() const { return work_; }        ///< by loads and supports since the start [energy]
-  double irreversible() const { return irreversible_; } ///< since the start [energy]
+  const State &state() const { return state_; }
+
+  double external_work() const { return state_.work; }        ///< by loads and supports since the start [energy]
+  double irreversible() const { return state_.irreversible; } ///< since the start [energy]
 
   /// What the energies leave over, relative to the largest of them so far; 0 while all are 0.
   double balance() const
   {
-    const double left = now_.elastic() + now_.kinetic + now_.fracture + irreversible_ - initial_ - work_;
-    return largest_ > 0. ? left / largest_ : 0.;
+    const auto  &now  = state_.now;
+    const double left = now.elastic() + now.kinetic + now.fracture + state_.irreversible - state_.initial - state_.work;
+    return state_.largest > 0. ? left / state_.largest : 0.;
   }
 
 private:
   void note_largest()
   {
-    for (const double energy : {now_.elastic(), now_.kinetic, now_.fracture, work_, irreversible_})
-      largest_ = std::max(largest_, std::abs(energy));
+    const auto &now = state_.now;
+    for (const double energy : {now.elastic(), now.kinetic, now.fracture, state_.work, state_.irreversible})
+      state_.largest = std::max(state_.largest, std::abs(energy));
   }
 
-  double   initial_;
-  Energies now_;
-  double   work_ = 0., irreversible_ = 0., largest_ = 0.;
+  State state_;
 };
 
 } // namespace sherd

@@ -18,15 +18,15 @@ struct PatchArrays
 };
 
 /// The solution as splines, DIR/fields.h5: the mesh whenever it has changed, the coefficients of every frame,
-/// compressed without loss. doc/output.md describes the layout. Serial: for the rank that holds the snapshot. The file
-/// is open only while a frame is written, so that what is there stays readable if the program ends.
+/// compressed without loss. doc/output.md describes the layout. Serial: for the rank that holds the snapshot. A frame
+/// is added to a copy that replaces the file, so that what is there stays readable whenever the program ends.
 class FieldsFile
 {
 public:
   /// Starts a file anew. @throws FileError   if it cannot be written
   FieldsFile(const std::filesystem::path &directory, int degree, int spacedim);
 
-  /// Goes on behind the frames up to @p time; later ones are removed. Starts anew if there is no file.
+  /// Goes on behind the frames up to @p time; later ones and their meshes are removed. Starts anew if there is no file.
   /// @throws FileError   if the file is of another degree or dimension, or cannot be read
   static FieldsFile resume(const std::filesystem::path &directory, int degree, int spacedim, double time);
 

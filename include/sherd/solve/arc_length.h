@@ -104,6 +104,11 @@ private:
       {
         const auto   r      = solver_->linearise(next);
         const double square = product(change, change);
+        if (!(first * product(change, tangent) > 0.))
+          {
+            failure = "the corrector turned back";
+            return 0;
+          }
         if (!std::isfinite(r.norm))
           {
             failure = "the residual is not finite";

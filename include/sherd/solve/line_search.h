@@ -25,39 +25,44 @@ struct LineSearchSettings
 };
 
 /// Length t in [shortest, 1] of a step: 1 if its slope is small enough, else by regula falsi (Illinois) on s where it
-/// changes sign; where it does not, the length with the smallest |s|.
+/// changes sign; where it does not, 1. Lengths whose slope is not finite are halved. After max_trials the length with
+/// the smallest |s|.
 /// @param slope0     s(0)
 /// @param slope_at   s(t), called at most 1 + max_trials times
 template <class Slope>
 double search_line(double slope0, const Slope &slope_at, const LineSearchSettings &settings)
 {
-  double low = 0., s_low = slope0, high = 1., s_high = slope_at(1.);
-  double best = 1., s_best = std::abs(s_high);
-  for (int trial = 0; trial < settings.max_trials; ++trial)
+  double high = 1., s_high = slope_at(high);
+  int    trials = 0;
+  for (; !std::isfinite(s_high) && trials < settings.max_trials && high > settings.shortest; ++trials)
     {
-      if (s_best <= settings.slope * std::abs(slope0) || !((s_low < 0.) != (s_high < 0.)))
+      high   = std::max(.5 * high, settings.shortest);
+      s_high = slope_at(high);
+    }
+  double low = 0., s_low = slope0;
+  double best = high, s_best = std::abs(s_high);
+  int    last_side = 0;
+  for (; trials < settings.max_trials; ++trials)
+    {
+      const bool brackets = s_low * s_high < 0.;
+      if (!brackets || s_best <= settings.slope * std::abs(slope0) || high <= settings.shortest)
         break;
-      const double t = std::clamp(low + (high - low) * s_low / (s_low - s_high), settings.shortest, 1.);
+      const double t = std::max(low + (high - low) * s_low / (s_low - s_high), settings.shortest);
       const double s = slope_at(t);
-      if (!(std::abs(s) >= s_best))
+      if (!std::isfinite(s))
+        break;
+      if (std::abs(s) < s_best)
         {
           best   = t;
           s_best = std::abs(s);
         }
-      if ((s < 0.) == (s_high < 0.))
-        {
-          high   = t;
-          s_high = s;
-          s_low *= .5;
-        }
-      else
-        {
-          low   = t;
-          s_low = s;
-          s_high *= .5;
-        }
-      if (low >= high || high <= settings.shortest)
-        break;
+      // Illinois: an end that stays twice counts half, or regula falsi would crawl.
+      const int side              = s * s_high > 0. ? 1 : -1;
+      (side > 0 ? high : low)     = t;
+      (side > 0 ? s_high : s_low) = s;
+      if (side == last_side)
+        (side > 0 ? s_low : s_high) *= .5;
+      last_side = side;
     }
   return best;
 }

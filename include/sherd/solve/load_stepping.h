@@ -19,7 +19,7 @@ struct LoadStepSettings
 
   void declare(ParameterSection &section)
   {
-    section.value("first", first, "-", range::positive(), "first step of the load factor");
+    section.value("first", first, "-", range::positive(), "first step of the load factor, if not above the largest");
     section.value("largest", largest, "-", range::positive(), "largest step of the load factor");
     section.value("smallest", smallest, "-", range::positive(), "a failed step smaller than this ends the run");
     section.value("wanted_iterations", wanted_iterations, range::at_least(1),
@@ -38,7 +38,7 @@ typename StaticSolver<Model>::StateType follow_loads(StaticSolver<Model>        
 {
   auto         state     = start;
   const double direction = end >= start.time ? 1. : -1.;
-  double       step      = settings.first;
+  double       step      = std::min(settings.first, settings.largest);
   while (state.time != end)
     {
       const double remaining = std::abs(end - state.time);

@@ -47,7 +47,7 @@ struct EquilibriumResult
 ///   r(x, lambda) = f_ext(x, lambda) - f_int(x) = 0 on the free unknowns.
 ///
 /// The phase field is held as it is: this solver is for shells that deform without cracking further. Loads and supports
-/// have to be affine in lambda: their values at 0 and 1 are all that is used.
+/// have to be affine in lambda: their values at 0 and 1 say everything.
 ///
 /// The arguments of the constructor have to outlive the solver. All members are collective.
 template <class Model>
@@ -64,6 +64,7 @@ public:
                const Loads<spacedim> &loads, const StaticSettings &settings);
 
   /// Prepares for the present mesh of the space and the distribution of @p state. Call it first and after refinement.
+  /// @throws InvalidParameter   loads or supports that are not affine in the load factor
   void rebuild(const StateType &state);
 
   const Assembler<Model>                    &assembler() const { return *assembler_; }
@@ -106,6 +107,7 @@ public:
 
 private:
   LoadValues<Model> loads_at(double factor) const { return interpolate(factor, *unloaded_, *loaded_); }
+  void              check_affine(const StateType &state) const;
   Residual          measure(const StateType &state, const Vector &internal, const Vector &external) const;
 
   const Model                        *model_;

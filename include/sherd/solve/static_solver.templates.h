@@ -4,10 +4,40 @@
 #include <cmath>
 #include <limits>
 
+#include <sherd/base/exceptions.h>
+#include <sherd/base/print.h>
 #include <sherd/solve/static_solver.h>
 
 namespace sherd
 {
+
+namespace internal
+{
+/// Largest part of @p middle that is not the mean of @p begin and @p end, relative to the largest value. Of this rank.
+template <class Model>
+double deviation_from_mean(const LoadValues<Model> &begin, const LoadValues<Model> &middle,
+                           const LoadValues<Model> &end)
+{
+  double     deviation = 0., largest = 0.;
+  const auto compare = [&](double a, double m, double b) {
+    deviation = std::max(deviation, std::abs(m - .5 * (a + b)));
+    largest   = std::max({largest, std::abs(a), std::abs(m), std::abs(b)});
+  };
+  if (middle.dead)
+    for (std::size_t i = 0; i < middle.dead->local().size(); ++i)
+      compare(begin.dead->local()[i], middle.dead->local()[i], end.dead->local()[i]);
+  for (std::size_t e = 0; e < middle.pressure.size(); ++e)
+    for (std::size_t q = 0; q < middle.pressure[e].constant.size(); ++q)
+      {
+        compare(begin.pressure[e].constant[q], middle.pressure[e].constant[q], end.pressure[e].constant[q]);
+        compare(begin.pressure[e].by_phase[q], middle.pressure[e].by_phase[q], end.pressure[e].by_phase[q]);
+      }
+  for (std::size_t m = 0; m < middle.moments.size(); ++m)
+    for (std::size_t q = 0; q < middle.moments[m].moment.size(); ++q)
+      compare(begin.moments[m].moment[q], middle.moments[m].moment[q], end.moments[m].moment[q]);
+  return largest > 0. ? deviation / largest : 0.;
+}
+} // namespace internal
 
 template <class Model>
 StaticSolver<Model>::StaticSolver(const Model &model, const ShellSpace<degree, spacedim> &space,
@@ -36,6 +66,30 @@ void StaticSolver<Model>::rebuild(const StateType &state)
   fixed_ = supported_->fixed();
   for (std::size_t k = spacedim; k < fixed_.size(); k += n_fields)
     fixed_[k] = 1;
+  check_affine(state);
+}
+
+template <class Model>
+void StaticSolver<Model>::check_affine(const StateType &state) const
+{
+  double deviation[2] = {internal::deviation_from_mean(*unloaded_, assembler_->evaluate(*loads_, .5), *loaded_), 0.};
+  const Vector begin = supported_->moves(state.position, 0.), middle = supported_->moves(state.position, .5),
+               end = supported_->moves(state.position, 1.);
+  double largest   = 0.;
+  for (std::size_t k = 0; k < middle.local().size(); ++k)
+    {
+      deviation[1] = std::max(deviation[1], std::abs(middle.local()[k] - .5 * (begin.local()[k] + end.local()[k])));
+      largest      = std::max({largest, std::abs(state.position.local()[k]), std::abs(end.local()[k])});
+    }
+  if (largest > 0.)
+    deviation[1] /= largest;
+  MPI_Allreduce(MPI_IN_PLACE, deviation, 2, MPI_DOUBLE, MPI_MAX, assembler_->distribution()->comm());
+  for (int i = 0; i < 2; ++i)
+    if (!(deviation[i] <= 1e-9))
+      throw InvalidParameter(std::string("static solver: ") + (i == 0 ? "loads" : "supports") +
+                             " that are not affine in the load factor (at factor 0.5 they deviate by " +
+                             print(deviation[i]) + " of their largest value from the mean of those at 0 and 1); " +
+                             "take the load factor as time, and several runs for a sequence of loads");
 }
 
 template <class Model>
@@ -170,7 +224,7 @@ auto StaticSolver<Model>::solve(const StateType &start, double factor) -> Result
             result.failure = "Newton's iteration diverges";
           if (result.failure.empty() && i == settings_.max_iterations)
             result.failure = "no equilibrium in " + std::to_string(i) + " Newton iterations (residual " +
-                             std::to_string(r.norm / r.allowed) + " times the tolerance)";
+                             print(r.norm / r.allowed) + " times the tolerance)";
           if (!result.failure.empty())
             return result;
 

@@ -25,6 +25,11 @@ public:
   /// Tensor mesh of the distinct values of two knot vectors; element j n_u + i is cell i along u, j along v.
   ElementTree(std::span<const double> knots_u, std::span<const double> knots_v);
 
+  /// A tree with these @p elements, in the order of their numbers. The halvings that led to them may have been others;
+  /// later splits and their numbering do not depend on that.
+  /// @throws InvalidParameter   unless they are parts of the cells of the tensor mesh in an order that halvings give
+  ElementTree(std::span<const double> knots_u, std::span<const double> knots_v, std::span<const Box> elements);
+
   /// Boxes of all elements.
   const std::vector<Box> &elements() const { return boxes_; }
 
@@ -33,6 +38,9 @@ public:
 
   /// Appends to @p elements those that the line touches along more than a point, be it along an edge.
   void append_touching(const MeshLine &line, std::vector<int> &elements) const;
+
+  /// Appends to @p elements, ascending, those that lie in @p box.
+  void append_inside(const Box &box, std::vector<int> &elements) const;
 
   /// Splits the @p candidates (ascending element numbers) by the lines of @p mesh and renumbers.
   /// @return parent[new element] = old element
@@ -49,6 +57,8 @@ private:
 
   int  root(std::size_t i, std::size_t j) const { return static_cast<int>(j * (grid_[0].size() - 1) + i); }
   void append_touching(int node, Box box, const MeshLine &line, std::vector<int> &elements) const;
+  void append_inside(int node, const Box &cell, const Box &box, std::vector<int> &elements) const;
+  void rebuild_node(int node, const Box &box, std::span<const Box> elements);
   void split_node(int node, const Box &box, const LRMesh &mesh);
   void number_elements(int node, const Box &box);
 

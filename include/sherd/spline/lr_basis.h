@@ -24,6 +24,16 @@ struct LRFunction
   Box support() const { return {{knots[0].front(), knots[1].front()}, {knots[0].back(), knots[1].back()}}; }
 };
 
+/// What a basis consists of, for files.
+template <int degree>
+struct LRBasisParts
+{
+  std::array<std::vector<double>, 2> initial_knots; ///< (u, v)
+  std::vector<MeshLine>              lines;         ///< LRBasis::mesh_lines
+  std::vector<LRFunction<degree>>    functions;     ///< in the order of their numbers
+  std::vector<Box>                   elements;      ///< in the order of their numbers
+};
+
 /// Locally refinable bivariate splines of one degree in both directions: mesh lines, functions and elements.
 ///
 /// A field with control data c is sum_i c_i gamma_i B_i, and sum_i gamma_i B_i = 1. All functions have minimal support:
@@ -43,6 +53,14 @@ public:
   /// @param knots_u, knots_v  ascending; first and last value degree + 1 times, others at most degree times
   /// @throws InvalidParameter  otherwise
   LRBasis(std::vector<double> knots_u, std::vector<double> knots_v);
+
+  /// The basis that had these parts(), with the same numbers; later refinements give the same functions, bit by bit.
+  /// @throws InvalidParameter   unless lines, elements and functions belong together: elements fill the domain, bounded
+  ///                            and not crossed by lines; functions are minimal, cover each element at least
+  ///                            (degree+1)^2 times, and sum_i gamma_i B_i = 1 at its centre
+  explicit LRBasis(LRBasisParts<degree> parts);
+
+  LRBasisParts<degree> parts() const { return {initial_knots_, mesh_lines_, functions_, tree_.elements()}; }
 
   int n_functions() const { return static_cast<int>(functions_.size()); }
   int n_elements() const { return static_cast<int>(tree_.elements().size()); }
@@ -86,6 +104,9 @@ public:
 
 private:
   void check(const MeshLine &line) const;
+  void check_elements() const;
+  void check_functions() const;
+  void check_partition_of_unity() const;
   void rebuild_adjacency(const std::vector<int> &parent, std::span<const int> origin, int n_old_elements);
 
   std::array<std::vector<double>, 2> initial_knots_;

@@ -44,6 +44,14 @@ struct StepControlSettings
 class StepController
 {
 public:
+  /// What it remembers from step to step, for checkpoints.
+  struct State
+  {
+    double step;    ///< next step [time]
+    double largest; ///< its bound [time]
+    int    retries; ///< rejections since the last accepted step
+  };
+
   /// @throws InvalidParameter   a step or factor that is not positive; a rejected step that would not become smaller
   explicit StepController(const StepControlSettings &settings) : settings_(settings), dt_(settings.initial)
   {
@@ -64,6 +72,16 @@ public:
   {
     largest_ = settings_.courant * shortest_edge / (.6 * rayleigh_speed);
     dt_      = std::min(dt_, largest_);
+  }
+
+  State state() const { return {dt_, largest_, retries_}; }
+
+  /// Goes on from a checkpoint; the settings stay its own.
+  void restore(const State &state)
+  {
+    dt_      = state.step;
+    largest_ = state.largest;
+    retries_ = state.retries;
   }
 
   double step() const { return dt_; }
@@ -93,16 +111,24 @@ public:
   }
 
   /// After a rejected step of size @p attempted, the present one if left out.
-  /// @throws NoConvergence   when the step falls below dt_min; @p why is part of the message
+  /// @throws NoConvergence   when the step falls below dt_min; @p why is part of the message. The step is then the one
+  ///                         before the rejections, where a checkpoint can go on with other settings
   void reject(const std::string &why, double attempted = std::numeric_limits<double>::infinity())
   {
+    if (retries_ == 0)
+      before_rejections_ = dt_;
     dt_ = std::min(dt_, attempted);
     scale(retries_++ == 0 ? settings_.rejected : settings_.rejected_again);
     const double reference = std::isfinite(largest_) ? largest_ : settings_.initial;
     if (dt_ < settings_.smallest * reference)
-      throw NoConvergence("the step size fell to " + print(dt_) + ", " + print(dt_ / reference) +
-                          " of its bound, after " + std::to_string(retries_) + " rejections: " + why +
-                          "; try a finer mesh at the crack, a smaller load step or degradation::Quadratic");
+      {
+        const NoConvergence error("the step size fell to " + print(dt_) + ", " + print(dt_ / reference) +
+                                  " of its bound, after " + std::to_string(retries_) + " rejections: " + why +
+                                  "; try a finer mesh at the crack, a smaller load step or degradation::Quadratic");
+        dt_      = before_rejections_;
+        retries_ = 0;
+        throw error;
+      }
   }
 
 private:
@@ -117,8 +143,9 @@ private:
 
   StepControlSettings settings_;
   double              dt_;
-  double              largest_ = std::numeric_limits<double>::infinity(); ///< until bound() is called
-  int                 retries_ = 0;
+  double              largest_           = std::numeric_limits<double>::infinity(); ///< until bound() is called
+  int                 retries_           = 0;
+  double              before_rejections_ = 0.;
 };
 
 } // namespace sherd
