@@ -1,7 +1,9 @@
 #pragma once
 
+#include <concepts>
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -16,6 +18,11 @@ enum class PressureRelease
   none,    ///< p = p0
   by_phase ///< p = p0 max(phi, 0): a crack lets it out
 };
+
+/// A function of exactly this result. An Eigen expression in its place would refer to temporaries that are gone when it
+/// is evaluated: give the function an explicit return type, [](auto &X, double t) -> Point<3> { ... }.
+template <class F, class Result, class... Arguments>
+concept FunctionOf = std::same_as<std::invoke_result_t<F, Arguments...>, Result>;
 
 /// Loads of a surface, declared once by the name of an edge, by position or for the whole surface, so that they follow
 /// refinement. X is the position on the reference surface.
@@ -57,10 +64,18 @@ public:
   };
 
   /// f_A = int N_A t(X, time) dS on a named edge. @p traction [force/length]
-  void traction(const std::string &edge, Function traction) { tractions_.push_back({edge, std::move(traction)}); }
+  template <FunctionOf<Point<spacedim>, const Point<spacedim> &, double> F>
+  void traction(const std::string &edge, F traction)
+  {
+    tractions_.push_back({edge, std::move(traction)});
+  }
 
   /// f_A = int N_A f(X, time) dA on the whole surface. @p force [force/area]
-  void surface_load(Function force) { surface_loads_.push_back(std::move(force)); }
+  template <FunctionOf<Point<spacedim>, const Point<spacedim> &, double> F>
+  void surface_load(F force)
+  {
+    surface_loads_.push_back(std::move(force));
+  }
 
   /// Surface load rho g. @param mass  rho, by reference area   @param g  acceleration of gravity, with its direction
   void gravity(double mass, const Point<spacedim> &g)
@@ -69,7 +84,11 @@ public:
   }
 
   /// f_A = N_A(X) P(time) at the point of the surface that lies at @p X. @p force [force]
-  void point_load(const Point<spacedim> &X, PointFunction force) { point_loads_.push_back({X, std::move(force)}); }
+  template <FunctionOf<Point<spacedim>, double> F>
+  void point_load(const Point<spacedim> &X, F force)
+  {
+    point_loads_.push_back({X, std::move(force)});
+  }
 
   /// f_A = int p N_A a_1 x a_2 d^2xi on the whole surface: along the present normal and by present area.
   /// @p pressure p0(X, time) [force/area], positive along +n
