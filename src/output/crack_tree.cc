@@ -223,6 +223,12 @@ void CrackTree::update_speed(CrackTip &tip, double time) const
   while (tip.recent.size() > n_steps + 1 && tip.recent[1].time <= time - window)
     tip.recent.erase(tip.recent.begin());
 
+  // A new arm shows up at once with its whole length; its first steps say nothing of its speed.
+  if (tip.recent.size() <= n_steps)
+    {
+      tip.speed = 0.;
+      return;
+    }
   double mean_time = 0., mean_length = 0.;
   for (const auto &r : tip.recent)
     {
@@ -235,7 +241,7 @@ void CrackTree::update_speed(CrackTip &tip, double time) const
       covariance += (r.time - mean_time) * (r.length - mean_length);
       variance += (r.time - mean_time) * (r.time - mean_time);
     }
-  tip.speed = variance > 0. ? covariance / variance : 0.;
+  tip.speed = covariance / variance;
 }
 
 } // namespace sherd

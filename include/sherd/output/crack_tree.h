@@ -22,7 +22,7 @@ struct CrackTip
   Eigen::Vector3d     X;      ///< where it is, on the reference surface; where it was last if not active
   Eigen::Vector3d     anchor; ///< material point its length is measured from
   double              length; ///< arc length along the cracks from the anchor
-  double              speed;  ///< slope of the least-squares line through length over time; 0 in its first step
+  double              speed;  ///< slope of the least-squares line through length over time; 0 in its first five steps
   std::vector<Record> recent; ///< what the speed is taken from, oldest first
 };
 
