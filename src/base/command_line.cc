@@ -1,6 +1,7 @@
 #include <sherd/base/command_line.h>
 
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include <sherd/base/exceptions.h>
@@ -21,8 +22,8 @@ const std::vector<Option> &options()
 {
   static const std::vector<Option> all{
       {"--set", "section.key=value", "use this value instead of that of the case file; may be repeated"},
-      {"--output", "DIR", "write results into DIR (default: output)"},
-      {"--restart", "FILE", "go on from this checkpoint (programs that write one)"},
+      {"--output", "DIR", "write results into DIR (default: output; with --restart the folder of FILE)"},
+      {"--restart", "FILE", "go on from this checkpoint, with its parameters where none are given"},
       {"--overwrite", "", "remove earlier results in DIR first"},
       {"--check", "", "validate the input, do not run"},
       {"--max-wall", "MINUTES", "stop (exit status 4) after that many minutes"},
@@ -121,6 +122,12 @@ CommandLine parse_command_line(std::string program, std::span<const std::string>
   if (line.restart && line.overwrite)
     throw InvalidParameter("--restart and --overwrite exclude each other: a restart goes on with the results that "
                            "--overwrite would remove; choose one, or restart into a new --output DIR");
+  // The results that a restart goes on with are where its checkpoint is.
+  if (line.restart && !seen.contains("--output"))
+    {
+      const auto folder     = std::filesystem::path(*line.restart).parent_path().string();
+      line.output_directory = folder.empty() ? "." : folder;
+    }
   return line;
 }
 

@@ -19,6 +19,17 @@ bool is_frame(const fs::path &file)
   return file.extension() == ".vtu" && stem.size() >= 6 && stem.find_first_not_of("0123456789") == std::string::npos;
 }
 
+/// checkpoint.N.h5
+bool is_older_checkpoint(const fs::path &file)
+{
+  const auto                 name = file.filename().string();
+  constexpr std::string_view head = "checkpoint.", tail = ".h5";
+  if (!name.starts_with(head) || !name.ends_with(tail) || name.size() <= head.size() + tail.size())
+    return false;
+  const auto number = name.substr(head.size(), name.size() - head.size() - tail.size());
+  return number.find_first_not_of("0123456789") == std::string::npos;
+}
+
 /// Turns errors of the file system into ours.
 template <class Task>
 void with_file_errors(const fs::path &path, const Task &task)
@@ -39,7 +50,9 @@ void check(const fs::path &path, const CommandLine &line)
     throw FileError("--restart " + *line.restart + ": there is no such file");
   if (fs::exists(path) && !fs::is_directory(path))
     throw FileError("output directory " + path.string() + " is a file; choose another one with --output DIR");
-  if (line.restart || line.overwrite || line.check)
+  const bool goes_on =
+      line.restart && fs::exists(path) && fs::equivalent(path, fs::absolute(*line.restart).parent_path());
+  if (goes_on || line.overwrite || line.check)
     return;
   if (const auto results = find_results(path); !results.empty())
     throw FileError("output directory " + path.string() + " holds results already, for example " +
@@ -77,9 +90,8 @@ fs::path OutputDirectory::frame(int n) const
 
 const std::vector<std::string> &result_files()
 {
-  static const std::vector<std::string> names{"used.yaml",  "history.csv",   "tips.csv",
-                                              "probes.csv", "summary.json",  "frames.pvd",
-                                              "fields.h5",  "checkpoint.h5", "checkpoint.previous.h5"};
+  static const std::vector<std::string> names{"used.yaml",    "history.csv", "tips.csv",  "probes.csv",
+                                              "summary.json", "frames.pvd",  "fields.h5", "checkpoint.h5"};
   return names;
 }
 
@@ -89,6 +101,10 @@ std::vector<fs::path> find_results(const fs::path &directory)
   for (const auto &name : result_files())
     if (fs::exists(directory / name))
       results.push_back(directory / name);
+  if (fs::is_directory(directory))
+    for (const auto &item : fs::directory_iterator(directory))
+      if (is_older_checkpoint(item.path()))
+        results.push_back(item.path());
   if (fs::is_directory(directory / frames_folder))
     for (const auto &item : fs::directory_iterator(directory / frames_folder))
       if (is_frame(item.path()))

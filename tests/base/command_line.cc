@@ -45,6 +45,13 @@ TEST_CASE("CommandLine: every option arrives, in both forms and any order", "[co
   CHECK(parse({"--overwrite"}).overwrite);
 }
 
+TEST_CASE("CommandLine: a restart goes on where its checkpoint is", "[command_line]")
+{
+  CHECK(parse({"--restart", "out/demo/checkpoint.h5"}).output_directory == "out/demo");
+  CHECK(parse({"--restart", "checkpoint.h5"}).output_directory == ".");
+  CHECK(parse({"--restart", "out/checkpoint.h5", "--output", "output"}).output_directory == "output");
+}
+
 TEST_CASE("CommandLine: an unknown option names the nearest known one", "[command_line]")
 {
   CHECK_THROWS_WITH(parse({"--outptu", "x"}), Contains("unknown option --outptu") && Contains("is --output;"));

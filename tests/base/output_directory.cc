@@ -46,10 +46,10 @@ std::set<std::string> files(const fs::path &directory)
   return found;
 }
 
-const std::vector<std::string> foreign{"notes.txt", "frames/picture.png", "frames/mesh.vtu", "figures/a.png",
-                                       "my_history.csv"};
-const std::vector<std::string> results{"history.csv", "used.yaml",         "checkpoint.h5",
-                                       "frames.pvd",  "frames/000000.vtu", "frames/1234567.vtu"};
+const std::vector<std::string> foreign{"notes.txt",       "checkpoint.old.h5", "frames/picture.png",
+                                       "frames/mesh.vtu", "figures/a.png",     "my_history.csv"};
+const std::vector<std::string> results{"history.csv",       "used.yaml",          "checkpoint.h5",  "frames.pvd",
+                                       "frames/000000.vtu", "frames/1234567.vtu", "checkpoint.1.h5"};
 } // namespace
 
 TEST_CASE("OutputDirectory: a new folder is made by prepare, not before", "[output_directory]")
@@ -110,6 +110,19 @@ TEST_CASE("OutputDirectory: --restart keeps all, but its checkpoint has to exist
   line.restart = (path / "missing.h5").string();
   CHECK_THROWS_AS(OutputDirectory(environment(path, line)), FileError);
   CHECK_THROWS_WITH(OutputDirectory(environment(path, line)), Contains("missing.h5"));
+}
+
+TEST_CASE("OutputDirectory: --restart into a folder with the results of another run is refused", "[output_directory]")
+{
+  const test::TemporaryDirectory temporary;
+  const auto                     old = temporary.path() / "old", other = temporary.path() / "other";
+  fill(old, results);
+  CommandLine line;
+  line.restart = (old / "checkpoint.h5").string();
+  CHECK_NOTHROW(OutputDirectory(environment(other, line)));
+  fill(other, {"history.csv"});
+  CHECK_THROWS_AS(OutputDirectory(environment(other, line)), FileError);
+  CHECK_THROWS_WITH(OutputDirectory(environment(other, line)), Contains("other"));
 }
 
 TEST_CASE("OutputDirectory: --check touches nothing", "[output_directory]")

@@ -88,6 +88,29 @@ TEST_CASE("FieldsFile: a resumed file drops later frames", "[output][fields]")
   CHECK_THROWS_AS(FieldsFile(folder.path(), 3, 3).write(coarse, test::scaled(coarse, 1., 0.)), DimensionMismatch);
 }
 
+TEST_CASE("FieldsFile: a resumed file drops later meshes and does not repeat the last", "[output][fields]")
+{
+  const test::TemporaryFolder folder;
+  const auto                  file   = folder.path() / "fields.h5";
+  const auto                  coarse = test::quarter_cylinder(), refined = test::refined_quarter_cylinder();
+  {
+    FieldsFile fields(folder.path(), 2, 3);
+    fields.write(coarse, test::scaled(coarse, 1., 0.));
+    fields.write(refined, test::scaled(refined, 1., 0.1));
+  }
+  const auto whole  = test::content(file);
+  auto       fields = FieldsFile::resume(folder.path(), 2, 3, 0.05);
+  fields.write(coarse, test::scaled(coarse, 1., 0.07));
+  CHECK(mesh_of(file, "frames/000001") == 0);
+  fields.write(refined, test::scaled(refined, 1., 0.1));
+  CHECK(mesh_of(file, "frames/000002") == 1);
+  CHECK(read(file, "mesh/000001/patch_0/gamma").size() == static_cast<std::size_t>(refined.n_control_points()));
+
+  // A run that was killed while it wrote leaves a half-made copy, and the file as it was.
+  std::ofstream(folder.path() / "fields.h5.part") << whole.substr(0, whole.size() / 2);
+  CHECK(FieldsFile::resume(folder.path(), 2, 3, 1.).n_frames() == 3);
+}
+
 TEST_CASE("FieldsFile: a broken file is an error with a message", "[output][fields]")
 {
   const test::TemporaryFolder folder;

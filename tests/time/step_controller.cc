@@ -90,6 +90,29 @@ TEST_CASE("Below the smallest step the run ends with the reason")
     }
   // 1/2 * 1/2 * (1/5)^k < 1e-8 first for k = 11.
   CHECK(n == 11);
+  // A checkpoint of now goes on with the step there was before the rejections.
+  CHECK(c.step() == 1.);
+  c.reject("test");
+  CHECK(c.step() == .5);
+}
+
+TEST_CASE("A restored controller goes on alike")
+{
+  auto a = controller(2.);
+  a.reject("test");
+  a.accept(3);
+  StepController b(StepControlSettings{.initial = 77.});
+  b.restore(a.state());
+  for (const int newton : {3, 5, 4})
+    {
+      a.reject("test");
+      b.reject("test");
+      CHECK(b.step() == a.step());
+      a.accept(newton);
+      b.accept(newton);
+      CHECK(b.step() == a.step());
+    }
+  CHECK(b.largest() == a.largest());
 }
 
 TEST_CASE("Without a bound the smallest step follows the first one")

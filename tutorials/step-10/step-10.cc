@@ -4,15 +4,17 @@
 // mirror image. New here: a shell that bends and moves far, pressure that the crack lets out, symmetry.
 // Run:     mpirun -np 2 ./step-10 demo.yaml --output output-demo
 //          ./step-10 quick.yaml
+//          ./step-10 --restart output-demo/checkpoint.h5   (goes on, on any number of ranks)
 // Expect:  history.csv, tips.csv, frames in the output directory; pictures by scripts/figures output-demo
 // Units:   any consistent ones; here radius, density by area and time scale are of order 1, and moduli are forces by
 //          length (theory B.3)
 #include <sherd/adapt/adaptivity.h>
 #include <sherd/base/output_directory.h>
-#include <sherd/base/parameters.h>
 #include <sherd/base/print.h>
 #include <sherd/base/stop_request.h>
 #include <sherd/geometry/shapes.h>
+#include <sherd/output/checkpoint_writer.h>
+#include <sherd/output/restart.h>
 #include <sherd/output/run_recorder.h>
 #include <sherd/solve/instances.h>
 #include <sherd/time/generalized_alpha.h>
@@ -94,6 +96,7 @@ struct Parameters
   RefinementSettings refinement{.target = .02, .halo = .16, .history_fraction = 1.};
   TimeSettings       time;
   NewtonSettings     newton;
+  CheckpointSettings checkpoint;
   int                frames = 40;
 
   void declare(ParameterSection &section)
@@ -104,6 +107,7 @@ struct Parameters
     section.subsection("refinement", refinement, "where the mesh is refined");
     section.subsection("time", time, "time integration");
     section.subsection("newton", newton, "nonlinear and linear solver");
+    section.subsection("checkpoint", checkpoint, "when a state to go on from is written");
     section.value("frames", frames, range::at_least(1), "pictures of the run, evenly spaced in time");
   }
 };
@@ -124,18 +128,18 @@ Sheet make_sheet(const step_10::Material &prm)
 
 void tear_tube(const Environment &env, const step_10::Parameters &prm)
 {
-  refuse_restart(env);
   OutputDirectory directory(env);
   const Sheet     sheet = make_sheet(prm.material);
 
   // The upper half, X = (x, R sin(angle), R cos(angle)); the notch runs along its crest. A rational arc of half a turn
   // would have lines where it is only C^0, so the circle is interpolated: off by less than 1e-6 of the radius here.
   const auto &tube = prm.tube;
-  auto        surface =
+  const auto  blank =
       shapes::cylinder<2>(tube.radius, tube.length, {-M_PI / 2., M_PI / 2.}, tube.elements, shapes::Fit::smooth);
-  const auto middle = .5 * tube.length;
-  const auto notch  = PreCrack<3>({Polyline<3>({Point<3>(middle - .5 * tube.notch, 0., tube.radius),
-                                                Point<3>(middle + .5 * tube.notch, 0., tube.radius)})},
+  auto       surface = blank;
+  const auto middle  = .5 * tube.length;
+  const auto notch   = PreCrack<3>({Polyline<3>({Point<3>(middle - .5 * tube.notch, 0., tube.radius),
+                                                 Point<3>(middle + .5 * tube.notch, 0., tube.radius)})},
                                  prm.material.length_scale);
 
   // The straight edges lie in the plane z = 0, where the other half is the mirror image: no way out of the plane, no
@@ -154,50 +158,64 @@ void tear_tube(const Environment &env, const step_10::Parameters &prm)
 
   MonolithicSolver<Sheet, GeneralizedAlpha> solver(sheet, space, supports, loads, GeneralizedAlpha(prm.time.rho_inf),
                                                    prm.newton);
-  Adaptivity<Sheet>                         adaptivity(surface, prm.refinement);
+  Adaptivity<Sheet>                         adaptivity(blank, prm.refinement);
   StepController                            controller(prm.time.steps);
+  const auto                                checkpoint = restart_checkpoint(env, blank); // with --restart
   if (env.command_line().check)
     return;
 
   State<2, 3> state(space);
-  adaptivity.prepare(solver, surface, space, state, notch);
-  solver.set_initial_acceleration(state);
+  if (checkpoint)
+    resume(*checkpoint, solver, surface, space, state, controller);
+  else
+    {
+      adaptivity.prepare(solver, surface, space, state, notch);
+      solver.set_initial_acceleration(state);
+    }
   controller.bound(solver.assembler().shortest_edge(), solver.rayleigh_speed());
 
   directory.prepare();
   write_parameters(env, directory.file("used.yaml"), prm);
-  RunRecorder<2, 3> recorder(env, directory, surface, solver.energies(state),
-                             {.crack    = {.length_scale   = prm.material.length_scale,
-                                           .rayleigh_speed = solver.rayleigh_speed(),
-                                           .target_size    = prm.refinement.target},
-                              .end_time = prm.time.end,
-                              .frames   = prm.frames,
-                              .points   = {{"side", Point<3>(middle, tube.radius, 0.)}},
-                              .edges    = {"left", "right"}});
-  recorder.start(solver, space, state);
+  CheckpointWriter          checkpoints(env, directory, prm.checkpoint);
+  const RecorderSettings<3> recording{.crack    = {.length_scale   = prm.material.length_scale,
+                                                   .rayleigh_speed = solver.rayleigh_speed(),
+                                                   .target_size    = prm.refinement.target},
+                                      .end_time = prm.time.end,
+                                      .frames   = prm.frames,
+                                      .points   = {{"side", Point<3>(middle, tube.radius, 0.)}},
+                                      .edges    = {"left", "right"}};
+  auto recorder = checkpoint ? RunRecorder<2, 3>(env, directory, blank, checkpoint->recorder, recording)
+                             : RunRecorder<2, 3>(env, directory, blank, solver.energies(state), recording);
+  if (!checkpoint)
+    recorder.start(solver, space, state);
   try
     {
       while (state.time < prm.time.end)
         {
           const auto step = adaptivity.advance(solver, surface, space, state, controller, prm.time.end);
           recorder.record(solver, space, state, step);
-          if (const auto reason = stop_requested(env))
+          const auto reason = stop_requested(env);
+          if (reason || checkpoints.due(state.step))
+            checkpoints.write(solver, space, state, controller, recorder);
+          if (reason)
             {
               recorder.finish(solver, *reason);
-              throw StoppedEarly("stopped at t = " + print(state.time) + ": " + *reason);
+              throw StoppedEarly("at t = " + print(state.time) + ": " + *reason + "; " + checkpoints.advice());
             }
         }
     }
   catch (const NoConvergence &error)
     {
-      // All ranks fail together, and what is known so far is worth a summary.
+      // All ranks fail together. What is known so far is worth a summary, and with other settings the run may go on.
+      checkpoints.write(solver, space, state, controller, recorder);
       recorder.finish(solver, error.what());
-      throw;
+      throw NoConvergence(error.what() + ("; to retry with other settings, " + checkpoints.advice()));
     }
   recorder.finish(solver, "done");
 }
 
 int main(int argc, char **argv)
 {
-  return run<step_10::Parameters>(argc, argv, tear_tube);
+  // What a restart may not change: the body, its mesh and its model.
+  return run_restartable<step_10::Parameters>(argc, argv, {"material", "tube", "pressure", "refinement"}, tear_tube);
 }

@@ -4,18 +4,20 @@
 // and step size following the crack.
 // Run:     ./step-7 demo.yaml --output output-demo            (all threads: OMP_NUM_THREADS)
 //          mpirun -np 2 ./step-7 quick.yaml
+//          ./step-7 --restart output-demo/checkpoint.h5    (goes on, on any number of ranks)
 // Expect:  history.csv, tips.csv, frames in the output directory; pictures by scripts/figures output-demo
 // Units:   m, s, kg, N; energies in J per metre of thickness
 #include <sherd/adapt/adaptivity.h>
 #include <sherd/base/formula.h>
 #include <sherd/base/output_directory.h>
-#include <sherd/base/parameters.h>
 #include <sherd/base/print.h>
 #include <sherd/base/stop_request.h>
 #include <sherd/fracture/crack_density/fourth_order.h>
 #include <sherd/fracture/degradation/cubic.h>
 #include <sherd/geometry/shapes.h>
 #include <sherd/material/split/surface_stretch.h>
+#include <sherd/output/checkpoint_writer.h>
+#include <sherd/output/restart.h>
 #include <sherd/output/run_recorder.h>
 #include <sherd/solve/instances.h>
 #include <sherd/time/generalized_alpha.h>
@@ -84,6 +86,7 @@ struct Parameters
   RefinementSettings refinement{.target = .125e-3, .halo = 1.e-3};
   TimeSettings       time;
   NewtonSettings     newton;
+  CheckpointSettings checkpoint;
   int                frames = 40;
 
   void declare(ParameterSection &section)
@@ -94,6 +97,7 @@ struct Parameters
     section.subsection("refinement", refinement, "where the mesh is refined");
     section.subsection("time", time, "time integration");
     section.subsection("newton", newton, "nonlinear and linear solver");
+    section.subsection("checkpoint", checkpoint, "when a state to go on from is written");
     section.value("frames", frames, range::at_least(1), "pictures of the run, evenly spaced in time");
   }
 };
@@ -106,7 +110,6 @@ using Glass =
 
 void break_plate(const Environment &env, const step_7::Parameters &prm)
 {
-  refuse_restart(env);
   OutputDirectory directory(env);
 
   // Plane strain: a slice of unit thickness behaves like a membrane with K = lambda + mu and G = mu (theory B.3).
@@ -117,7 +120,8 @@ void break_plate(const Environment &env, const step_7::Parameters &prm)
   const Glass        glass(split::SurfaceStretch<material::NeoHooke>(membrane), degradation::Cubic(material.slope), {},
                            toughness, material.length_scale, material.density);
 
-  auto       plate = shapes::plate<2, 2>(prm.plate.size, prm.plate.elements);
+  const auto blank = shapes::plate<2, 2>(prm.plate.size, prm.plate.elements);
+  auto       plate = blank;
   const auto notch = PreCrack<2>({Polyline<2>(prm.plate.notch)}, material.length_scale);
 
   // Nothing holds the plate: the two tractions balance each other, and inertia does the rest.
@@ -129,51 +133,65 @@ void break_plate(const Environment &env, const step_7::Parameters &prm)
 
   MonolithicSolver<Glass, GeneralizedAlpha> solver(glass, space, supports, loads, GeneralizedAlpha(prm.time.rho_inf),
                                                    prm.newton);
-  Adaptivity<Glass>                         adaptivity(plate, prm.refinement);
+  Adaptivity<Glass>                         adaptivity(blank, prm.refinement);
   StepController                            controller(prm.time.steps);
+  const auto                                checkpoint = restart_checkpoint(env, blank); // with --restart
   if (env.command_line().check)
     return;
 
   // A notch is an initial history, not an initial phase: the mesh is refined around it first (theory D).
   State<2, 2> state(space);
-  adaptivity.prepare(solver, plate, space, state, notch);
-  solver.set_initial_acceleration(state);
+  if (checkpoint)
+    resume(*checkpoint, solver, plate, space, state, controller);
+  else
+    {
+      adaptivity.prepare(solver, plate, space, state, notch);
+      solver.set_initial_acceleration(state);
+    }
   controller.bound(solver.assembler().shortest_edge(), solver.rayleigh_speed());
 
   directory.prepare();
   write_parameters(env, directory.file("used.yaml"), prm);
-  RunRecorder<2, 2> recorder(env, directory, plate, solver.energies(state),
-                             {.crack    = {.length_scale   = material.length_scale,
-                                           .rayleigh_speed = solver.rayleigh_speed(),
-                                           .target_size    = prm.refinement.target},
-                              .end_time = prm.time.end,
-                              .frames   = prm.frames,
-                              .points   = {{"upper_corner", {prm.plate.size[0], prm.plate.size[1]}}},
-                              .edges    = {"top", "bottom"}});
-  recorder.start(solver, space, state);
+  CheckpointWriter          checkpoints(env, directory, prm.checkpoint);
+  const RecorderSettings<2> recording{.crack    = {.length_scale   = material.length_scale,
+                                                   .rayleigh_speed = solver.rayleigh_speed(),
+                                                   .target_size    = prm.refinement.target},
+                                      .end_time = prm.time.end,
+                                      .frames   = prm.frames,
+                                      .points   = {{"upper_corner", {prm.plate.size[0], prm.plate.size[1]}}},
+                                      .edges    = {"top", "bottom"}};
+  auto recorder = checkpoint ? RunRecorder<2, 2>(env, directory, blank, checkpoint->recorder, recording)
+                             : RunRecorder<2, 2>(env, directory, blank, solver.energies(state), recording);
+  if (!checkpoint)
+    recorder.start(solver, space, state);
   try
     {
       while (state.time < prm.time.end)
         {
           const auto step = adaptivity.advance(solver, plate, space, state, controller, prm.time.end);
           recorder.record(solver, space, state, step);
-          if (const auto reason = stop_requested(env))
+          const auto reason = stop_requested(env);
+          if (reason || checkpoints.due(state.step))
+            checkpoints.write(solver, space, state, controller, recorder);
+          if (reason)
             {
               recorder.finish(solver, *reason);
-              throw StoppedEarly("stopped at t = " + print(state.time) + " s: " + *reason);
+              throw StoppedEarly("at t = " + print(state.time) + " s: " + *reason + "; " + checkpoints.advice());
             }
         }
     }
   catch (const NoConvergence &error)
     {
-      // All ranks fail together, and what is known so far is worth a summary.
+      // All ranks fail together. What is known so far is worth a summary, and with other settings the run may go on.
+      checkpoints.write(solver, space, state, controller, recorder);
       recorder.finish(solver, error.what());
-      throw;
+      throw NoConvergence(error.what() + ("; to retry with other settings, " + checkpoints.advice()));
     }
   recorder.finish(solver, "done");
 }
 
 int main(int argc, char **argv)
 {
-  return run<step_7::Parameters>(argc, argv, break_plate);
+  // What a restart may not change: the body, its mesh and its model.
+  return run_restartable<step_7::Parameters>(argc, argv, {"material", "plate", "traction", "refinement"}, break_plate);
 }

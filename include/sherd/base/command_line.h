@@ -13,15 +13,15 @@ namespace sherd
 /// The options of one run, as given.
 struct CommandLine
 {
-  std::string                                      program = "PROGRAM";         ///< name without its folder
-  std::string                                      case_file;                   ///< empty: defaults of the program
-  std::vector<std::pair<std::string, std::string>> overrides;                   ///< {"section.key", "value"}, in order
-  std::string                                      output_directory = "output"; ///< where results go
-  std::optional<std::string>                       restart;                     ///< checkpoint to go on from
-  bool                                             overwrite = false;           ///< earlier results may be removed
-  bool                                             check     = false;           ///< validate, do not run
-  std::optional<double>                            max_wall_minutes;            ///< stop with a checkpoint after that
-  bool                                             help = false;                ///< print the usage, do not run
+  std::string                                      program = "PROGRAM"; ///< name without its folder
+  std::string                                      case_file;           ///< empty: defaults of the program
+  std::vector<std::pair<std::string, std::string>> overrides;           ///< {"section.key", "value"}, in order
+  std::string                output_directory = "output"; ///< where results go; by default the folder of --restart
+  std::optional<std::string> restart;                     ///< checkpoint to go on from
+  bool                       overwrite = false;           ///< earlier results may be removed
+  bool                       check     = false;           ///< validate, do not run
+  std::optional<double>      max_wall_minutes;            ///< stop with a checkpoint after that
+  bool                       help = false;                ///< print the usage, do not run
 };
 
 /// Reads @p arguments (without the program's name). An option and its value may be two words or joined by '='.

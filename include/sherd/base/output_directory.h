@@ -15,7 +15,7 @@ namespace sherd
 class OutputDirectory
 {
 public:
-  /// Refuses a folder that holds results unless --restart or --overwrite is given. Collective.
+  /// Refuses a folder that holds results unless --overwrite or --restart with a checkpoint in it is given. Collective.
   /// @throws FileError  on every rank: if it holds results, is no folder, or the file of --restart does not exist.
   explicit OutputDirectory(const Environment &env);
 
@@ -38,7 +38,7 @@ private:
 /// For programs that write no checkpoint. @throws InvalidParameter  if --restart was given, on every rank
 void refuse_restart(const Environment &env);
 
-/// Names of the files a run may write into its folder, beside the frames.
+/// Names of the files a run may write into its folder, beside the frames and older checkpoints (checkpoint.N.h5).
 const std::vector<std::string> &result_files();
 
 /// What @p directory holds of earlier runs: result files and frames, sorted. Empty if there is no such directory.

@@ -73,7 +73,7 @@ int run(int argc, char **argv, const std::function<void(const Environment &, con
 {
   return run(
       argc, argv, [&](const Environment &env) { program(env, read_parameters<P>(env)); },
-      [] { return "\n" + parameter_reference<P>(); });
+      [] { return std::string(1, '\n') + parameter_reference<P>(); });
 }
 
 } // namespace sherd

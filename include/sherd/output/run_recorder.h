@@ -16,6 +16,7 @@
 #include <sherd/output/history.h>
 #include <sherd/output/json.h>
 #include <sherd/output/probes.h>
+#include <sherd/output/recorder_memory.h>
 #include <sherd/output/tips_table.h>
 #include <sherd/space/shell_space.h>
 #include <sherd/state/state.h>
@@ -45,14 +46,29 @@ public:
   using SpaceType = ShellSpace<degree, spacedim>;
   using StateType = State<degree, spacedim>;
 
+  /// Starts the files anew.
   /// @param directory   prepared
+  /// @param surface     before any refinement, if the run can be restarted: probes and lattices for cracks found on it
+  ///                    are the same after a restart, bit by bit
   /// @param initial     energies of the initial state
   /// @throws FileError, InvalidParameter   on all ranks
   RunRecorder(const Environment &env, const OutputDirectory &directory, const Surface<degree, spacedim> &surface,
               const Energies &initial, const RecorderSettings<spacedim> &settings)
-      : env_(env), settings_(settings), balance_(initial), energies_(initial)
+      : env_(env), settings_(settings), balance_(initial)
   {
+    memory_.energies = initial;
     on_root(env.comm(), [&] { files_ = std::make_unique<Files>(directory.path(), surface, settings); });
+  }
+
+  /// Goes on from a checkpoint: the files keep their rows and frames up to its time, later ones are removed. Files that
+  /// are not there are started anew.
+  /// @param memory   RunRecorder::memory() of the run that wrote it
+  /// @throws FileError, InvalidParameter   on all ranks
+  RunRecorder(const Environment &env, const OutputDirectory &directory, const Surface<degree, spacedim> &surface,
+              const RecorderMemory &memory, const RecorderSettings<spacedim> &settings)
+      : env_(env), settings_(settings), balance_(memory.balance), memory_(memory)
+  {
+    on_root(env.comm(), [&] { files_ = std::make_unique<Files>(directory.path(), surface, settings, memory); });
   }
 
   /// Row and frame of the initial state.
@@ -68,10 +84,10 @@ public:
   void record(Solver &solver, const SpaceType &space, const StateType &state, const StepSummary &step)
   {
     balance_.add(step);
-    energies_ = step.energies;
-    totals_.add(step);
+    memory_.energies = step.energies;
+    memory_.totals.add(step);
     write_rows(solver, space, state, step);
-    const double next_frame = settings_.end_time / settings_.frames * n_frames_;
+    const double next_frame = settings_.end_time / settings_.frames * memory_.n_frames;
     if (state.time >= next_frame * (1. - 1e-9))
       write_frame(solver, space, state);
   }
@@ -79,6 +95,10 @@ public:
   /// Writes summary.json. @param ending   how the run ended, for example "done"
   template <class Solver>
   void finish(Solver &solver, const std::string &ending);
+
+  /// What a checkpoint of the present step has to hold; the cracks on rank 0 only. Collective.
+  template <class Solver>
+  RecorderMemory memory(Solver &solver) const;
 
 private:
   struct Files
@@ -96,6 +116,20 @@ private:
     {
     }
 
+    Files(const std::filesystem::path &path, const Surface<degree, spacedim> &surface,
+          const RecorderSettings<spacedim> &settings, const RecorderMemory &memory)
+        : directory(path),
+          history(History::resume(path, memory.last.time)),
+          tips(TipsTable::resume(path, memory.last.time)),
+          probes(Probes<spacedim>::resume(path, surface, settings.points, settings.edges, memory.last.time)),
+          frames(FrameWriter::resume(path, memory.last.time)),
+          fields(FieldsFile::resume(path, degree, spacedim, memory.last.time)),
+          tracker(surface, settings.crack),
+          progress(memory.last.time, settings.end_time, std::cout)
+    {
+      tracker.restore(memory.cracks);
+    }
+
     std::filesystem::path directory;
     History               history;
     TipsTable             tips;
@@ -106,37 +140,22 @@ private:
     ProgressLine          progress;
   };
 
-  struct Totals
-  {
-    int steps = 0, attempts = 0, rejected = 0, repeated = 0, switched = 0, refined = 0, newton = 0, linear = 0;
-
-    void add(const StepSummary &step)
-    {
-      ++steps;
-      attempts += step.attempts;
-      rejected += step.rejected;
-      repeated += step.repeated;
-      switched += step.switched;
-      refined += step.refined;
-      newton += step.newton;
-      linear += step.linear;
-    }
-  };
-
   template <class Solver>
   void write_rows(Solver &solver, const SpaceType &space, const StateType &state, const StepSummary &step);
   template <class Solver>
   void write_frame(Solver &solver, const SpaceType &space, const StateType &state);
 
+  /// Wall seconds by phase, of this program and of those before it. Collective.
+  template <class Solver>
+  std::map<std::string, double> phase_seconds(Solver &solver) const;
+
+  double wall_seconds() const { return memory_.wall_seconds + env_.elapsed_seconds(); }
+
   Environment                env_;
   RecorderSettings<spacedim> settings_;
   EnergyBalance              balance_;
-  Energies                   energies_;
-  Totals                     totals_;
-  HistoryRow                 last_{};
-  double                     largest_elastic_ = 0., largest_elastic_time_ = 0., largest_imbalance_ = 0.;
-  int                        n_frames_ = 0;
-  std::unique_ptr<Files>     files_; ///< rank 0 only
+  RecorderMemory             memory_; ///< balance, cracks and seconds: as they were at the start of this program
+  std::unique_ptr<Files>     files_;  ///< rank 0 only
 };
 
 } // namespace sherd

@@ -27,13 +27,13 @@ void RunRecorder<degree, spacedim>::write_rows(Solver &solver, const SpaceType &
   row.dofs          = space.n_unknowns();
   row.min_h         = solver.assembler().shortest_edge();
   row.max_phi       = step.largest_phase;
-  row.elastic       = energies_.elastic();
-  row.kinetic       = energies_.kinetic;
-  row.fracture      = energies_.fracture;
+  row.elastic       = memory_.energies.elastic();
+  row.kinetic       = memory_.energies.kinetic;
+  row.fracture      = memory_.energies.fracture;
   row.external_work = balance_.external_work();
   row.irreversible  = balance_.irreversible();
   row.balance       = balance_.balance();
-  row.wall          = env_.elapsed_seconds();
+  row.wall          = wall_seconds();
 
   std::vector<Point<spacedim>> reactions;
   for (const auto &edge : settings_.edges)
@@ -52,13 +52,13 @@ void RunRecorder<degree, spacedim>::write_rows(Solver &solver, const SpaceType &
       std::cout << "  " << message << '\n';
     files_->progress.report({row.step, row.time, row.dt, row.newton, row.dofs, row.crack_length});
   });
-  last_ = row;
-  if (row.elastic > largest_elastic_)
+  memory_.last = row;
+  if (row.elastic > memory_.largest_elastic)
     {
-      largest_elastic_      = row.elastic;
-      largest_elastic_time_ = row.time;
+      memory_.largest_elastic      = row.elastic;
+      memory_.largest_elastic_time = row.time;
     }
-  largest_imbalance_ = std::max(largest_imbalance_, std::abs(row.balance));
+  memory_.largest_imbalance = std::max(memory_.largest_imbalance, std::abs(row.balance));
 }
 
 template <int degree, int spacedim>
@@ -93,19 +93,21 @@ void RunRecorder<degree, spacedim>::write_frame(Solver &solver, const SpaceType 
     files_->frames.write(space.surface(), all, fields);
     files_->fields.write(space.surface(), all);
   });
-  ++n_frames_;
+  ++memory_.n_frames;
 }
 
 template <int degree, int spacedim>
 template <class Solver>
 void RunRecorder<degree, spacedim>::finish(Solver &solver, const std::string &ending)
 {
-  const auto seconds = solver.timers().maximum(env_.comm());
+  const auto  seconds = phase_seconds(solver);
+  const auto &last    = memory_.last;
+  const auto &totals  = memory_.totals;
   on_root(env_.comm(), [&] {
     JsonObject wall;
     for (const auto &[phase, value] : seconds)
       wall.add(phase, value);
-    wall.add("total", env_.elapsed_seconds());
+    wall.add("total", wall_seconds());
 
     std::vector<JsonObject> branchings;
     for (const auto &branching : files_->tracker.tree().branchings())
@@ -124,34 +126,57 @@ void RunRecorder<degree, spacedim>::finish(Solver &solver, const std::string &en
                          .add("length", tip.length));
     write_summary(files_->directory, JsonObject()
                                          .add("ending", ending)
-                                         .add("time", last_.time)
+                                         .add("time", last.time)
                                          .add("final", JsonObject()
-                                                           .add("elements", last_.elements)
-                                                           .add("dofs", last_.dofs)
-                                                           .add("elastic", last_.elastic)
-                                                           .add("kinetic", last_.kinetic)
-                                                           .add("fracture", last_.fracture)
-                                                           .add("external_work", last_.external_work)
-                                                           .add("irreversible", last_.irreversible)
-                                                           .add("balance", last_.balance)
-                                                           .add("crack_length", last_.crack_length))
+                                                           .add("elements", last.elements)
+                                                           .add("dofs", last.dofs)
+                                                           .add("elastic", last.elastic)
+                                                           .add("kinetic", last.kinetic)
+                                                           .add("fracture", last.fracture)
+                                                           .add("external_work", last.external_work)
+                                                           .add("irreversible", last.irreversible)
+                                                           .add("balance", last.balance)
+                                                           .add("crack_length", last.crack_length))
                                          .add("extreme", JsonObject()
-                                                             .add("elastic", largest_elastic_)
-                                                             .add("elastic_at", largest_elastic_time_)
-                                                             .add("balance", largest_imbalance_))
+                                                             .add("elastic", memory_.largest_elastic)
+                                                             .add("elastic_at", memory_.largest_elastic_time)
+                                                             .add("balance", memory_.largest_imbalance))
                                          .add("totals", JsonObject()
-                                                            .add("steps", totals_.steps)
-                                                            .add("attempts", totals_.attempts)
-                                                            .add("rejected", totals_.rejected)
-                                                            .add("repeated", totals_.repeated)
-                                                            .add("switched", totals_.switched)
-                                                            .add("refined", totals_.refined)
-                                                            .add("newton", totals_.newton)
-                                                            .add("linear", totals_.linear))
+                                                            .add("steps", totals.steps)
+                                                            .add("attempts", totals.attempts)
+                                                            .add("rejected", totals.rejected)
+                                                            .add("repeated", totals.repeated)
+                                                            .add("switched", totals.switched)
+                                                            .add("refined", totals.refined)
+                                                            .add("newton", totals.newton)
+                                                            .add("linear", totals.linear))
                                          .add("wall_seconds", wall)
                                          .add("branched_at", branchings)
                                          .add("tips", tips));
   });
+}
+
+template <int degree, int spacedim>
+template <class Solver>
+std::map<std::string, double> RunRecorder<degree, spacedim>::phase_seconds(Solver &solver) const
+{
+  auto seconds = solver.timers().maximum(env_.comm());
+  for (const auto &[phase, earlier] : memory_.phase_seconds)
+    seconds[phase] += earlier;
+  return seconds;
+}
+
+template <int degree, int spacedim>
+template <class Solver>
+RecorderMemory RunRecorder<degree, spacedim>::memory(Solver &solver) const
+{
+  auto result          = memory_;
+  result.balance       = balance_.state();
+  result.wall_seconds  = wall_seconds();
+  result.phase_seconds = phase_seconds(solver);
+  if (files_)
+    result.cracks = files_->tracker.tree().state();
+  return result;
 }
 
 } // namespace sherd

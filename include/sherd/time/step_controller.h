@@ -44,12 +44,11 @@ struct StepControlSettings
 class StepController
 {
 public:
-  /// What it remembers from step to step, for checkpoints.
+  /// What it remembers of accepted steps, for checkpoints.
   struct State
   {
     double step;    ///< next step [time]
     double largest; ///< its bound [time]
-    int    retries; ///< rejections since the last accepted step
   };
 
   /// @throws InvalidParameter   a step or factor that is not positive; a rejected step that would not become smaller
@@ -74,14 +73,14 @@ public:
     dt_      = std::min(dt_, largest_);
   }
 
-  State state() const { return {dt_, largest_, retries_}; }
+  State state() const { return {dt_, largest_}; }
 
   /// Goes on from a checkpoint; the settings stay its own.
   void restore(const State &state)
   {
     dt_      = state.step;
     largest_ = state.largest;
-    retries_ = state.retries;
+    retries_ = 0;
   }
 
   double step() const { return dt_; }
