@@ -145,3 +145,4 @@ private:
 } // namespace sherd
 
 #include <sherd/assembly/assembler.templates.h>
+#include <sherd/assembly/assembler_loads.templates.h>
