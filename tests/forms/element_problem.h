@@ -6,6 +6,7 @@
 #include <forms/loaded_surfaces.h>
 #include <sherd/forms/element_energies.h>
 #include <sherd/forms/pressure.h>
+#include <sherd/forms/shell_element.h>
 #include <sherd/fracture/crack_density/fourth_order.h>
 #include <sherd/fracture/crack_density/second_order.h>
 #include <sherd/fracture/degradation/cubic.h>
@@ -249,7 +250,7 @@ public:
   {
     std::optional<ShapeValues<Model::degree>> storage;
     const auto                               &s = data.geometry.shapes(storage);
-    return surface_point(data.reference[q], surface_frame<Model::degree, dim>(s, fields(y).position, q));
+    return surface_point(data.reference[q], surface_frame(FieldInterpolation<Model>(fields(y)).at(s, q)));
   }
 
   Model                                 model;

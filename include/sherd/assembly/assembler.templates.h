@@ -17,22 +17,34 @@ namespace internal
 /// Control points of an element in the padded work space of the extraction.
 inline constexpr int max_element_points = 48;
 
-/// out[i][j] = sum_ab E_ia K_ab F_jb for one pair of fields: the element matrix on control points.
-/// @param Et, Ft   transposed extractions of the row and the column field, by rows, shape=(n_b, width), zero beyond
-///                 column n
-/// @param out      by rows, shape=(n, width)
-template <int n_b, int width>
-inline void extract_block(int n, const double *Et, const double *Ft, const double *K, int stride_k, double *out)
+/// The element matrix on control points, out[c][i][d][j] = sum_ab E^c_ia K^cd_ab E^d_jb for all fields c, d.
+/// @param Et      transposed extraction of each field, by rows, shape=(n_b, width), zero beyond column n
+/// @param right   work space, shape=(n_fields*n_b, n_fields*width)
+/// @param out     shape=(n_fields, n, n_fields, width)
+template <class Model, int width>
+inline void extract(int n, const double *const *Et, const ElementMatrix<Model> &K, double *right, double *out)
 {
-  // right = K F^T, then out = E right; both as A^T B with A = K^T and A = E^T.
-  double transposed[n_b * n_b];
-  for (int a = 0; a < n_b; ++a)
-    for (int b = 0; b < n_b; ++b)
-      transposed[b * n_b + a] = K[a * stride_k + b];
-  alignas(64) double right[n_b * width] = {};
-  add_transposed_product<width>(n_b, n_b, transposed, n_b, Ft, width, right, width);
-  std::fill_n(out, n * width, 0.);
-  add_transposed_product<width>(n, n_b, Et, width, right, width, out, width);
+  constexpr int n_b = ElementMatrix<Model>::n_b, n_fields = Model::n_fields, stride = n_fields * width;
+  for (int d = 0; d < n_fields; ++d)
+    set_product<width>(n_fields * n_b, n_b, {K.value[0] + d * n_b, K.stride, 1}, Et[d], width, right + d * width,
+                       stride);
+  for (int c = 0; c < n_fields; ++c)
+    set_product<stride>(n, n_b, {Et[c], 1, width}, right + c * n_b * stride, stride, out + c * n * stride, stride);
+}
+
+/// row[d] += from[d * width], one row of a block; four fields at once.
+template <int n_fields>
+inline void add_block_row(const double *from, int width, double *row)
+{
+  if constexpr (n_fields == 4)
+    {
+      typedef double Row __attribute__((vector_size(32), aligned(8), may_alias));
+      const Row      added = {from[0], from[width], from[2 * width], from[3 * width]};
+      *reinterpret_cast<Row *>(row) += added;
+    }
+  else
+    for (int d = 0; d < n_fields; ++d)
+      row[d] += from[d * width];
 }
 
 } // namespace internal
@@ -174,38 +186,41 @@ void Assembler<Model>::scatter_matrix(int active, const ElementMatrix<Model> &k,
   double *const values    = matrix.values().data();
 
   // Most elements have no more functions than a tensor mesh; where meshes of different size meet there are some more.
-  constexpr int tensor     = padded(n_b);
-  constexpr int wider      = padded(n_b) + 12;
-  constexpr int widest     = internal::max_element_points;
-  const int     width      = n <= tensor ? tensor : n <= wider ? wider : widest;
-  const auto    block_of   = width == tensor  ? internal::extract_block<n_b, tensor>
-                             : width == wider ? internal::extract_block<n_b, wider>
-                                              : internal::extract_block<n_b, widest>;
-  const int     n_distinct = ties_.index(active) < 0 ? 1 : n_fields;
+  constexpr int tensor  = padded(n_b);
+  constexpr int wider   = padded(n_b + 8);
+  constexpr int widest  = internal::max_element_points;
+  const int     width   = n <= tensor ? tensor : n <= wider ? wider : widest;
+  const auto    extract = width == tensor  ? internal::extract<Model, tensor>
+                          : width == wider ? internal::extract<Model, wider>
+                                           : internal::extract<Model, widest>;
 
-  alignas(64) double Et[n_fields][n_b * widest] = {};
-  alignas(64) double block[widest * widest];
+  const int          n_distinct = ties_.index(active) < 0 ? 1 : n_fields;
+  alignas(64) double transposed[n_fields][n_b * widest];
+  const double      *Et[n_fields];
+  for (int c = 0; c < n_fields; ++c)
+    Et[c] = transposed[c % n_distinct];
   for (int c = 0; c < n_distinct; ++c)
     {
       const auto &E = extraction(active, c);
+      std::fill_n(transposed[c], n_b * width, 0.);
       for (int i = 0; i < n; ++i)
         for (int b = 0; b < n_b; ++b)
-          Et[c][b * width + i] = E(i, b);
+          transposed[c][b * width + i] = E(i, b);
     }
 
+  alignas(64) double right[n_fields * n_b * n_fields * widest];
+  alignas(64) double out[n_fields * widest * n_fields * widest];
+  extract(n, Et, k, right, out);
   for (int c = 0; c < n_fields; ++c)
-    for (int d = 0; d < n_fields; ++d)
-      {
-        block_of(n, Et[c % n_distinct], Et[d % n_distinct], k.value[c * n_b] + d * n_b, k.stride, block);
-        for (int i = 0; i < n; ++i)
-          if (points[i] >= range.begin && points[i] < range.end)
-            {
-              double    *row = values + matrix.row_start(points[i]) + c * matrix.row_length(points[i]) + d;
-              const int *at  = positions.data() + i * n;
-              for (int j = 0; j < n; ++j)
-                row[at[j] * n_fields] += block[i * width + j];
-            }
-      }
+    for (int i = 0; i < n; ++i)
+      if (points[i] >= range.begin && points[i] < range.end)
+        {
+          double       *row  = values + matrix.row_start(points[i]) + c * matrix.row_length(points[i]);
+          const int    *at   = positions.data() + i * n;
+          const double *from = out + (c * n + i) * n_fields * width;
+          for (int j = 0; j < n; ++j)
+            internal::add_block_row<n_fields>(from + j, width, row + at[j] * n_fields);
+        }
 }
 
 template <class Model>

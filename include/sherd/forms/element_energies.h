@@ -1,6 +1,6 @@
 #pragma once
 
-#include <sherd/forms/shell_element.h>
+#include <sherd/forms/point_state.h>
 
 namespace sherd
 {
@@ -33,12 +33,12 @@ Energies element_energies(const Model &model, const ElementData<Model> &data, co
 {
   std::optional<ShapeValues<Model::degree>> storage;
   const auto                               &s = data.geometry.shapes(storage);
+  const FieldInterpolation<Model>           interpolation(fields);
   Energies                                  sum;
   for (int q = 0; q < s.n_points; ++q)
     {
       const auto  &reference = data.geometry.reference[q];
-      const auto   laplace   = shape_laplacians(s, reference, q);
-      const auto   p         = evaluate_point(model, data, s, fields, laplace.data(), 0., q);
+      const auto   p         = evaluate_point(model, data, interpolation.at(s, q), 0., q);
       const auto  &A         = reference.contravariant;
       const double gradient  = A[0] * p.phi_1 * p.phi_1 + A[1] * p.phi_2 * p.phi_2 + 2. * A[2] * p.phi_1 * p.phi_2;
       sum.active += reference.dA * model.degradation.value(p.phi) * p.response.energy_active;
@@ -64,13 +64,13 @@ double element_withheld_work(const Model &model, const ElementData<Model> &data,
                              const double *previous_phase, const double *history)
 {
   std::optional<ShapeValues<Model::degree>> storage;
-  const auto                               &s   = data.geometry.shapes(storage);
+  const auto                               &s = data.geometry.shapes(storage);
+  const FieldInterpolation<Model>           interpolation(fields);
   double                                    sum = 0.;
   for (int q = 0; q < s.n_points; ++q)
     {
-      const auto laplace = shape_laplacians(s, data.geometry.reference[q], q);
-      const auto p       = evaluate_point(model, data, s, fields, laplace.data(), 0., q);
-      double     before  = 0.;
+      const auto p      = evaluate_point(model, data, interpolation.at(s, q), 0., q);
+      double     before = 0.;
       for (int b = 0; b < s.n_functions; ++b)
         before += s.value[q][b] * previous_phase[b];
       sum += data.geometry.reference[q].dA * model.degradation.first(.5 * (before + p.phi)) *
@@ -86,12 +86,10 @@ std::array<double, ElementData<Model>::n_q> element_active_energy(const Model &m
 {
   std::optional<ShapeValues<Model::degree>>   storage;
   const auto                                 &s = data.geometry.shapes(storage);
+  const FieldInterpolation<Model>             interpolation(fields);
   std::array<double, ElementData<Model>::n_q> energy;
   for (int q = 0; q < s.n_points; ++q)
-    {
-      const auto laplace = shape_laplacians(s, data.geometry.reference[q], q);
-      energy[q]          = evaluate_point(model, data, s, fields, laplace.data(), 0., q).response.energy_active;
-    }
+    energy[q] = evaluate_point(model, data, interpolation.at(s, q), 0., q).response.energy_active;
   return energy;
 }
 

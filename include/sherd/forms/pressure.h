@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <sherd/forms/loads.h>
-#include <sherd/forms/shell_element.h>
+#include <sherd/forms/point_state.h>
 
 namespace sherd
 {
@@ -50,20 +50,13 @@ struct PressurePoint
 };
 
 template <class Model>
-PressurePoint pressure_point(const ShapeValues<Model::degree> &s, const ElementFields<Model> &fields,
-                             const ElementPressure<Model> &pressure, int q)
+PressurePoint pressure_point(const PointFields<3> &fields, const ElementPressure<Model> &pressure, int q)
 {
-  constexpr int n_b = ElementFields<Model>::n_b;
-  PressurePoint p;
-  p.a1       = interpolate<3, n_b>(s.d1[q], fields.position);
-  p.a2       = interpolate<3, n_b>(s.d2[q], fields.position);
-  double phi = 0.;
-  for (int b = 0; b < n_b; ++b)
-    phi += s.value[q][b] * fields.phase[b];
+  const double phi    = fields.phi();
   const double weight = BernsteinTable<Model::degree>::get().weights[q];
-  p.pressure          = weight * (pressure.constant[q] + pressure.by_phase[q] * std::max(phi, 0.));
-  p.phi_slope         = phi > 0. ? weight * pressure.by_phase[q] : 0.;
-  return p;
+  return {point_of<3>(fields.d1), point_of<3>(fields.d2),
+          weight * (pressure.constant[q] + pressure.by_phase[q] * std::max(phi, 0.)),
+          phi > 0. ? weight * pressure.by_phase[q] : 0.};
 }
 
 } // namespace internal
@@ -83,9 +76,10 @@ void add_pressure(const ElementData<Model> &data, const ElementFields<Model> &fi
   static_assert(Model::spacedim == 3, "a pressure acts on shells in space");
   std::optional<ShapeValues<Model::degree>> storage;
   const auto                               &s = data.geometry.shapes(storage);
+  const FieldInterpolation<Model>           interpolation(fields);
   for (int q = 0; q < s.n_points; ++q)
     {
-      const auto     p     = internal::pressure_point(s, fields, pressure, q);
+      const auto     p     = internal::pressure_point(interpolation.at(s, q), pressure, q);
       const Point<3> force = p.pressure * p.a1.cross(p.a2);
       for (int d = 0; d < 3; ++d)
         for (int b = 0; b < s.n_functions; ++b)
@@ -118,13 +112,14 @@ void add_pressure_tangent(const ElementData<Model> &data, const ElementFields<Mo
 
   std::optional<ShapeValues<Model::degree>> storage;
   const auto                               &s = data.geometry.shapes(storage);
+  const FieldInterpolation<Model>           interpolation(fields);
 
   alignas(64) double value[n_q][pad_b] = {}; // N
   alignas(64) double axis[n_q][pad_u]  = {}; // p (N,1 a_2 - N,2 a_1), index order [q][component*n_b + b]
   alignas(64) double slope[n_q][pad_u] = {}; // -p' N (a_1 x a_2), likewise
   for (int q = 0; q < n_q; ++q)
     {
-      const auto     p     = internal::pressure_point(s, fields, pressure, q);
+      const auto     p     = internal::pressure_point(interpolation.at(s, q), pressure, q);
       const Point<3> force = -p.phi_slope * p.a1.cross(p.a2);
       for (int b = 0; b < n_b; ++b)
         value[q][b] = s.value[q][b];
@@ -136,11 +131,16 @@ void add_pressure_tangent(const ElementData<Model> &data, const ElementFields<Mo
           }
     }
 
-  double *const K = stiffness.value[0];
-  add_transposed_product<pad_b>(n_u, n_q, slope[0], pad_u, value[0], pad_b, K + n_u, stride);
+  alignas(64) double couple[n_u][pad_b] = {}; // displacement by phase
+  add_product<pad_b>(n_u, n_q, {slope[0], 1, pad_u}, value[0], pad_b, couple[0], pad_b);
 
   alignas(64) double turn[n_b][pad_u] = {}; // int N_A axis_B
-  add_transposed_product<pad_u>(n_b, n_q, value[0], pad_b, axis[0], pad_u, turn[0], pad_u);
+  add_product<pad_u>(n_b, n_q, {value[0], 1, pad_b}, axis[0], pad_u, turn[0], pad_u);
+
+  double *const K = stiffness.value[0];
+  for (int k = 0; k < n_u; ++k)
+    for (int b = 0; b < n_b; ++b)
+      K[k * stride + n_u + b] += couple[k][b];
   for (int d = 0; d < 3; ++d)
     {
       const int i = (d + 1) % 3, j = (d + 2) % 3; // [v]_x has v_d at (j, i) and -v_d at (i, j)

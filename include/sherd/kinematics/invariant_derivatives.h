@@ -41,11 +41,8 @@ namespace internal
 inline Voigt4 symmetric_product(const Voigt &X, const Voigt &Y)
 {
   const double xy_1 = .5 * (X[0] * Y[2] + X[2] * Y[0]), xy_2 = .5 * (X[1] * Y[2] + X[2] * Y[1]);
-  Voigt4       product;
-  product << X[0] * Y[0], X[2] * Y[2], xy_1, //
-      X[2] * Y[2], X[1] * Y[1], xy_2,        //
-      xy_1, xy_2, .25 * (X[0] * Y[1] + X[1] * Y[0]) + .5 * X[2] * Y[2];
-  return product;
+  return symmetric_voigt4(X[0] * Y[0], X[2] * Y[2], xy_1, X[1] * Y[1], xy_2,
+                          .25 * (X[0] * Y[1] + X[1] * Y[0]) + .5 * X[2] * Y[2]);
 }
 } // namespace internal
 

@@ -52,15 +52,26 @@ inline Metric metric(const Voigt &covariant)
   return internal::metric_with_determinant(covariant, covariant[0] * covariant[1] - covariant[2] * covariant[2]);
 }
 
+/// Symmetric matrix of Voigt components by its upper triangle. Coefficients are set one by one, which compilers keep in
+/// registers.
+inline Voigt4 symmetric_voigt4(const double m00, const double m01, const double m02, const double m11, const double m12,
+                               const double m22)
+{
+  Voigt4 m;
+  m(0, 0) = m00;
+  m(0, 1) = m(1, 0) = m01;
+  m(0, 2) = m(2, 0) = m02;
+  m(1, 1)           = m11;
+  m(1, 2) = m(2, 1) = m12;
+  m(2, 2)           = m22;
+  return m;
+}
+
 /// a^abcd = d a^ab / d a_cd = -(a^ac a^bd + a^ad a^bc) / 2, theory A.1. Rows (ab), columns (cd).
 inline Voigt4 inverse_derivative(const Metric &metric)
 {
   const double a11 = metric.contravariant[0], a22 = metric.contravariant[1], a12 = metric.contravariant[2];
-  Voigt4       derivative;
-  derivative << -a11 * a11, -a12 * a12, -a11 * a12, //
-      -a12 * a12, -a22 * a22, -a22 * a12,           //
-      -a11 * a12, -a22 * a12, -.5 * (a11 * a22 + a12 * a12);
-  return derivative;
+  return symmetric_voigt4(-a11 * a11, -a12 * a12, -a11 * a12, -a22 * a22, -a22 * a12, -.5 * (a11 * a22 + a12 * a12));
 }
 
 } // namespace sherd

@@ -54,7 +54,7 @@ DerivativeCheck check_derivative(const Function &f, const Derivative &derivative
 {
   using Value        = std::decay_t<decltype(f(0.))>;
   const Value  value = f(0.), ahead = f(step), behind = f(-step);
-  const double rounding = 100. * std::numeric_limits<double>::epsilon() *
+  const double rounding = 200. * std::numeric_limits<double>::epsilon() *
                           std::max(internal::largest_entry(value), internal::largest_entry(ahead));
   const double scale =
       std::max({internal::largest_entry(Value(derivative)), internal::largest_entry(Value(ahead - value)) / step,
