@@ -2,9 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <utility>
 
+#ifdef __AVX__
+#  include <immintrin.h>
+#endif
+#include <omp.h>
+
+#include "registers.h"
 #include <sherd/base/exceptions.h>
 
 namespace sherd
@@ -91,171 +98,436 @@ private:
   std::vector<int> next_, level_;
 };
 
+/// Blocks of consecutive rows from position @p first on, with the levels of those right of the diagonal.
+struct Pattern
+{
+  int                      first         = 0;
+  std::vector<std::size_t> lower_offsets = {0}, upper_offsets = {0};
+  std::vector<int>         lower_columns, upper_columns, upper_levels;
+
+  void append(const Pattern &next)
+  {
+    const auto append_offsets = [](std::vector<std::size_t> &offsets, const std::vector<std::size_t> &more) {
+      const auto shift = offsets.back();
+      for (std::size_t k = 1; k < more.size(); ++k)
+        offsets.push_back(shift + more[k]);
+    };
+    append_offsets(lower_offsets, next.lower_offsets);
+    append_offsets(upper_offsets, next.upper_offsets);
+    lower_columns.insert(lower_columns.end(), next.lower_columns.begin(), next.lower_columns.end());
+    upper_columns.insert(upper_columns.end(), next.upper_columns.begin(), next.upper_columns.end());
+    upper_levels.insert(upper_levels.end(), next.upper_levels.begin(), next.upper_levels.end());
+  }
+};
+
+/// Appends row @p i to the pattern of the rows before it. @param columns of the matrix in this row, ascending.
+void append_row(int i, std::span<const int> columns, int fill_level, SortedRow &row, Pattern &pattern)
+{
+  row.clear();
+  int last = row.head();
+  for (const int j : columns)
+    last = row.add(last, j, 0);
+  row.add(row.head(), i, 0);
+
+  int j = row.next(row.head());
+  for (; j < i; j = row.next(j))
+    {
+      if (row.level(j) < fill_level)
+        {
+          int        place = j;
+          const auto k     = static_cast<std::size_t>(j - pattern.first);
+          for (auto p = pattern.upper_offsets[k] + 1; p < pattern.upper_offsets[k + 1]; ++p)
+            if (const int level = row.level(j) + pattern.upper_levels[p] + 1; level <= fill_level)
+              place = row.add(place, pattern.upper_columns[p], level);
+        }
+      pattern.lower_columns.push_back(j);
+    }
+  for (; j != SortedRow::end; j = row.next(j))
+    {
+      pattern.upper_columns.push_back(j);
+      pattern.upper_levels.push_back(row.level(j));
+    }
+  pattern.lower_offsets.push_back(pattern.lower_columns.size());
+  pattern.upper_offsets.push_back(pattern.upper_columns.size());
+}
+
+/// Rows of blocks and blocks of vectors in registers. What a block does not fill holds numbers that nobody reads.
+template <int block_size>
+struct Lanes
+{
+  static constexpr int width = block_size <= 2 ? 2 : 4;
+  using Doubles              = typename Registers<width>::Doubles;
+  using Floats               = typename Registers<width>::Floats;
+
+  static const Doubles &at(const double *place) { return *reinterpret_cast<const Doubles *>(place); }
+  static Doubles       &at(double *place) { return *reinterpret_cast<Doubles *>(place); }
+  static Doubles        filled(double value) { return Doubles{} + value; }
+  static Doubles        widened(const float *place)
+  {
+#ifdef __AVX__ // in one instruction, which not every compiler finds
+    if constexpr (width == 4)
+      return _mm256_cvtps_pd(_mm_loadu_ps(place));
+    else
+#endif
+      return __builtin_convertvector(*reinterpret_cast<const Floats *>(place), Doubles);
+  }
+};
+
+bool all_finite(std::span<const float> values)
+{
+  constexpr std::size_t n_lanes        = 16;
+  float                 zeros[n_lanes] = {}, zero = 0.F; // sums of zeros, or of what is not finite
+  const auto            n_whole = values.size() / n_lanes * n_lanes;
+  for (std::size_t m = 0; m < n_whole; m += n_lanes)
+    for (std::size_t lane = 0; lane < n_lanes; ++lane)
+      zeros[lane] += values[m + lane] * 0.F;
+  for (std::size_t m = n_whole; m < values.size(); ++m)
+    zero += values[m] * 0.F;
+  for (const float lane : zeros)
+    zero += lane;
+  return zero == 0.F;
+}
+
+/// Sum of blocks times blocks of a vector.
+template <int block_size>
+struct RowSum
+{
+  using Lane                              = Lanes<block_size>;
+  typename Lane::Doubles sums[block_size] = {};
+
+  void add(const float *block, const double *vector)
+  {
+    const auto in = Lane::at(vector);
+    for (int c = 0; c < block_size; ++c)
+      sums[c] += Lane::widened(block + c * block_size) * in;
+  }
+
+  double component(int c) const
+  {
+    double result = sums[c][0];
+    for (int d = 1; d < block_size; ++d)
+      result += sums[c][d];
+    return result;
+  }
+};
+
 } // namespace
 
-BlockIlu::BlockIlu(const SparseGraph &graph, int block_size, int fill_level)
-    : n_rows_(graph.n_rows()), block_size_(block_size), fill_level_(fill_level)
+BlockIlu::BlockIlu(const SparseGraph &graph, int block_size, int fill_level, int n_threads)
+    : block_size_(block_size), fill_level_(fill_level), n_threads_(n_threads)
 {
   if (block_size < 1 || block_size > 4)
     throw InvalidParameter("block size of incomplete factors = " + std::to_string(block_size) + ", expected 1 to 4");
   if (fill_level < 0)
     throw InvalidParameter("level of fill = " + std::to_string(fill_level) + ", expected at least 0");
+  if (n_threads < 1)
+    throw InvalidParameter("threads of incomplete factors = " + std::to_string(n_threads) + ", expected at least 1");
+  cut(graph);
+  find_pattern(graph);
+}
 
-  offsets_.assign(1, 0);
-  diagonal_.reserve(n_rows_);
-  std::vector<int> levels;
-  SortedRow        row(n_rows_);
-  for (int i = 0; i < n_rows_; ++i)
+void BlockIlu::cut(const SparseGraph &graph)
+{
+  const int         n_rows = graph.n_rows();
+  std::vector<int>  chunks(n_rows);
+  std::vector<char> in_separator(n_rows, 0);
+  for (int i = 0; i < n_rows; ++i)
+    chunks[i] =
+        static_cast<int>(static_cast<std::int64_t>(n_threads_) * graph.offsets[i] / std::max(graph.offsets.back(), 1));
+  for (int i = 0; i < n_rows; ++i)
+    chunks[i] = std::min(chunks[i], n_threads_ - 1); // empty rows at the end
+  for (int i = 0; i < n_rows; ++i)
+    for (const int j : graph.row(i))
+      if (j < n_rows && chunks[i] != chunks[j])
+        in_separator[std::max(i, j)] = 1;
+
+  const auto part = [&](int i) { return chunks[i] + (in_separator[i] ? n_threads_ : 0); };
+  parts_.assign(2 * n_threads_ + 1, 0);
+  for (int i = 0; i < n_rows; ++i)
+    ++parts_[part(i) + 1];
+  for (int p = 0; p < 2 * n_threads_; ++p)
+    parts_[p + 1] += parts_[p];
+  auto next = parts_;
+  order_.resize(n_rows);
+  for (int i = 0; i < n_rows; ++i)
+    order_[next[part(i)]++] = i;
+  for (int p = 1; p < n_threads_; p += 2)
+    std::reverse(order_.begin() + parts_[p], order_.begin() + parts_[p + 1]);
+}
+
+void BlockIlu::find_pattern(const SparseGraph &graph)
+{
+  std::vector<int> positions(n_rows());
+  for (int i = 0; i < n_rows(); ++i)
+    positions[order_[i]] = i;
+  const auto append_part = [&](int part, Pattern &pattern) {
+    SortedRow        row(n_rows());
+    std::vector<int> columns;
+    for (int i = parts_[part]; i < parts_[part + 1]; ++i)
+      {
+        columns.clear();
+        for (const int j : graph.row(order_[i]))
+          if (j < n_rows())
+            columns.push_back(positions[j]);
+        if (!std::is_sorted(columns.begin(), columns.end()))
+          std::sort(columns.begin(), columns.end());
+        append_row(i, columns, fill_level_, row, pattern);
+      }
+  };
+
+  std::vector<Pattern> interiors(n_threads_);
+#pragma omp parallel for num_threads(n_threads_) schedule(static, 1)
+  for (int part = 0; part < n_threads_; ++part)
     {
-      row.clear();
-      int last = row.head();
-      for (const int j : graph.row(i))
-        if (j < n_rows_)
-          last = row.add(last, j, 0);
-      row.add(row.head(), i, 0);
-
-      for (int j = row.next(row.head()); j < i; j = row.next(j))
-        if (row.level(j) < fill_level)
+      interiors[part].first = parts_[part];
+      append_part(part, interiors[part]);
+    }
+  Pattern pattern = std::move(interiors[0]);
+  for (int part = 1; part < n_threads_; ++part)
+    pattern.append(interiors[part]);
+  for (int part = n_threads_; part < 2 * n_threads_; ++part)
+    {
+      append_part(part, pattern);
+      for (int i = parts_[part]; i < parts_[part + 1]; ++i)
+        for (auto p = pattern.lower_offsets[i]; p < pattern.lower_offsets[i + 1]; ++p)
           {
-            int place = j;
-            for (std::size_t p = diagonal_[j] + 1; p < offsets_[j + 1]; ++p)
-              if (const int level = row.level(j) + levels[p] + 1; level <= fill_level)
-                place = row.add(place, columns_[p], level);
+            const int j = pattern.lower_columns[p];
+            separators_coupled_ |= j >= parts_[n_threads_] && j < parts_[part];
+          }
+      for (int i = parts_[n_threads_]; i < parts_[part]; ++i)
+        for (auto p = pattern.upper_offsets[i]; p < pattern.upper_offsets[i + 1]; ++p)
+          separators_coupled_ |= pattern.upper_columns[p] >= parts_[part];
+    }
+
+  const auto allocate = [this](Triangle &triangle, std::vector<std::size_t> &offsets, std::vector<int> &columns) {
+    triangle.offsets = std::move(offsets);
+    triangle.columns = std::move(columns);
+    triangle.values.assign(triangle.columns.size() * block_size_ * block_size_ + 4, 0.F);
+  };
+  allocate(lower_, pattern.lower_offsets, pattern.lower_columns);
+  allocate(upper_, pattern.upper_offsets, pattern.upper_columns);
+  work_.assign(static_cast<std::size_t>(n_rows()) * 4, 0.);
+}
+
+std::vector<int> BlockIlu::row(int i) const
+{
+  std::vector<int> result(lower_.columns.begin() + lower_.offsets[i], lower_.columns.begin() + lower_.offsets[i + 1]);
+  result.insert(result.end(), upper_.columns.begin() + upper_.offsets[i],
+                upper_.columns.begin() + upper_.offsets[i + 1]);
+  return result;
+}
+
+struct BlockIlu::Workspace
+{
+  std::vector<int>    slots;  ///< of each column among the kept blocks of the current row, -1 for the others
+  std::vector<double> blocks; ///< of the current row, their rows padded to whole registers
+};
+
+template <int block_size>
+std::string BlockIlu::factor_part(int part, const SparseGraph &graph, std::span<const double> values,
+                                  std::span<const double> more_values, std::span<const int> positions,
+                                  Workspace &workspace)
+{
+  using Lane           = Lanes<block_size>;
+  constexpr int size   = block_size * block_size;
+  constexpr int width  = Lane::width;
+  constexpr int padded = block_size * width;
+  auto         &slots  = workspace.slots;
+  slots.assign(n_rows(), -1);
+  for (int i = parts_[part]; i < parts_[part + 1]; ++i)
+    {
+      const std::span<const int> left(lower_.columns.data() + lower_.offsets[i],
+                                      lower_.columns.data() + lower_.offsets[i + 1]);
+      const std::span<const int> right(upper_.columns.data() + upper_.offsets[i],
+                                       upper_.columns.data() + upper_.offsets[i + 1]);
+      const int                  n_left = static_cast<int>(left.size()), n_right = static_cast<int>(right.size());
+      for (int k = 0; k < n_left; ++k)
+        slots[left[k]] = k;
+      for (int k = 0; k < n_right; ++k)
+        slots[right[k]] = n_left + k;
+      workspace.blocks.assign(static_cast<std::size_t>(n_left + n_right) * padded, 0.);
+      double *const work = workspace.blocks.data();
+
+      const int     r     = order_[i];
+      const auto    first = static_cast<std::size_t>(graph.offsets[r]) * size;
+      const double *row = first < values.size() ? values.data() + first : more_values.data() + (first - values.size());
+      const auto    blocks = graph.row(r);
+      const auto    length = blocks.size() * block_size;
+      for (std::size_t k = 0; k < blocks.size(); ++k)
+        if (blocks[k] < n_rows())
+          {
+            double *const block = work + static_cast<std::size_t>(slots[positions[blocks[k]]]) * padded;
+            for (int c = 0; c < block_size; ++c)
+              for (int d = 0; d < block_size; ++d)
+                block[c * width + d] = row[c * length + k * block_size + d];
           }
 
-      for (int j = row.next(row.head()); j != SortedRow::end; j = row.next(j))
+      for (int k = 0; k < n_left; ++k)
         {
-          if (j == i)
-            diagonal_.push_back(columns_.size());
-          columns_.push_back(j);
-          levels.push_back(row.level(j));
+          const auto    begin = upper_.offsets[left[k]], end = upper_.offsets[left[k] + 1];
+          double *const entry   = work + k * padded;
+          const float  *inverse = upper_.values.data() + begin * size;
+          for (int c = 0; c < block_size; ++c)
+            {
+              auto sum = entry[c * width] * Lane::widened(inverse);
+              for (int m = 1; m < block_size; ++m)
+                sum += entry[c * width + m] * Lane::widened(inverse + m * block_size);
+              Lane::at(entry + c * width) = sum;
+            }
+          typename Lane::Doubles lower[block_size][block_size];
+          for (int c = 0; c < block_size; ++c)
+            for (int m = 0; m < block_size; ++m)
+              lower[c][m] = Lane::filled(entry[c * width + m]);
+          for (auto q = begin + 1; q < end; ++q)
+            if (const int slot = slots[upper_.columns[q]]; slot >= 0)
+              {
+                double                *target = work + slot * padded;
+                const float           *upper  = upper_.values.data() + q * size;
+                typename Lane::Doubles rows[block_size];
+                for (int m = 0; m < block_size; ++m)
+                  rows[m] = Lane::widened(upper + m * block_size);
+                for (int c = 0; c < block_size; ++c)
+                  {
+                    auto sum = Lane::at(target + c * width);
+                    for (int m = 0; m < block_size; ++m)
+                      sum -= lower[c][m] * rows[m];
+                    Lane::at(target + c * width) = sum;
+                  }
+              }
         }
-      offsets_.push_back(columns_.size());
+
+      double        pivot[size];
+      double *const diagonal = work + n_left * padded;
+      for (int c = 0; c < block_size; ++c)
+        std::copy_n(diagonal + c * width, block_size, pivot + c * block_size);
+      if (!invert<block_size>(pivot))
+        return "incomplete factors: singular diagonal block in row " + std::to_string(r);
+      for (int c = 0; c < block_size; ++c)
+        std::copy_n(pivot + c * block_size, block_size, diagonal + c * width);
+
+      const auto store = [](const double *from, int n_blocks, std::span<float> to) {
+        for (int k = 0; k < n_blocks * block_size; ++k)
+          for (int d = 0; d < block_size; ++d)
+            to[k * block_size + d] = static_cast<float>(from[k * width + d]);
+        return all_finite(to);
+      };
+      const std::span<float> left_values(lower_.values.data() + lower_.offsets[i] * size, left.size() * size);
+      const std::span<float> right_values(upper_.values.data() + upper_.offsets[i] * size, right.size() * size);
+      const bool             left_finite = store(work, n_left, left_values);
+      if (!store(diagonal, n_right, right_values) || !left_finite)
+        return "incomplete factors: value out of range in row " + std::to_string(r);
+      for (const int j : left)
+        slots[j] = -1;
+      for (const int j : right)
+        slots[j] = -1;
     }
-  factors_.resize(columns_.size() * block_size * block_size);
+  return {};
 }
 
 template <int block_size>
 void BlockIlu::factor_blocks(const SparseGraph &graph, std::span<const double> values,
                              std::span<const double> more_values)
 {
-  constexpr int       size = block_size * block_size;
-  std::vector<int>    slots(n_rows_, -1); // of each column among the kept blocks of the current row
-  std::vector<double> work;
-  for (int i = 0; i < n_rows_; ++i)
+  std::vector<int> positions(n_rows());
+  for (int i = 0; i < n_rows(); ++i)
+    positions[order_[i]] = i;
+  std::vector<Workspace>   workspaces(n_threads_);
+  std::vector<std::string> failures(2 * n_threads_);
+  const auto               factor_part = [&](int part) {
+    failures[part] =
+        this->factor_part<block_size>(part, graph, values, more_values, positions, workspaces[omp_get_thread_num()]);
+  };
+  const auto check = [&] {
+    for (const auto &failure : failures)
+      if (!failure.empty())
+        throw NoConvergence(failure);
+  };
+#pragma omp parallel for num_threads(n_threads_) schedule(static, 1)
+  for (int part = 0; part < n_threads_; ++part)
+    factor_part(part);
+  check();
+#pragma omp parallel for num_threads(n_threads_) schedule(static, 1) if (!separators_coupled_)
+  for (int part = n_threads_; part < 2 * n_threads_; ++part)
+    factor_part(part);
+  check();
+}
+
+template <int block_size>
+void BlockIlu::sweep_forward(int part, const double *b)
+{
+  constexpr int width = Lanes<block_size>::width;
+  for (int i = parts_[part]; i < parts_[part + 1]; ++i)
     {
-      const auto begin = offsets_[i], end = offsets_[i + 1];
-      work.assign((end - begin) * size, 0.);
-      for (auto p = begin; p < end; ++p)
-        slots[columns_[p]] = static_cast<int>(p - begin);
-
-      const auto    first = static_cast<std::size_t>(graph.offsets[i]) * size;
-      const double *row = first < values.size() ? values.data() + first : more_values.data() + (first - values.size());
-      const auto    blocks = graph.row(i);
-      const auto    length = blocks.size() * block_size;
-      for (std::size_t k = 0; k < blocks.size(); ++k)
-        if (blocks[k] < n_rows_)
-          for (int c = 0; c < block_size; ++c)
-            for (int d = 0; d < block_size; ++d)
-              work[slots[blocks[k]] * size + c * block_size + d] = row[c * length + k * block_size + d];
-
-      for (auto p = begin; p < diagonal_[i]; ++p)
-        {
-          const int    j       = columns_[p];
-          double      *entry   = work.data() + (p - begin) * size;
-          const float *inverse = factors_.data() + diagonal_[j] * size;
-          double       lower[size];
-          for (int c = 0; c < block_size; ++c)
-            for (int d = 0; d < block_size; ++d)
-              {
-                double sum = 0.;
-                for (int m = 0; m < block_size; ++m)
-                  sum += entry[c * block_size + m] * inverse[m * block_size + d];
-                lower[c * block_size + d] = sum;
-              }
-          for (int m = 0; m < size; ++m)
-            entry[m] = lower[m];
-          for (auto q = diagonal_[j] + 1; q < offsets_[j + 1]; ++q)
-            if (const int slot = slots[columns_[q]]; slot >= 0)
-              {
-                double      *target = work.data() + slot * size;
-                const float *upper  = factors_.data() + q * size;
-                for (int c = 0; c < block_size; ++c)
-                  for (int m = 0; m < block_size; ++m)
-                    for (int d = 0; d < block_size; ++d)
-                      target[c * block_size + d] -= lower[c * block_size + m] * upper[m * block_size + d];
-              }
-        }
-
-      double        pivot[size];
-      double *const diagonal = work.data() + (diagonal_[i] - begin) * size;
-      for (int m = 0; m < size; ++m)
-        pivot[m] = diagonal[m];
-      if (!invert<block_size>(pivot))
-        throw NoConvergence("incomplete factors: singular diagonal block in row " + std::to_string(i));
-      for (int m = 0; m < size; ++m)
-        diagonal[m] = pivot[m];
-
-      float *const stored = factors_.data() + begin * size;
-      float        finite = 0.F;
-      for (std::size_t m = 0; m < work.size(); ++m)
-        {
-          stored[m] = static_cast<float>(work[m]);
-          finite += stored[m] * 0.F;
-        }
-      if (finite != 0.F)
-        throw NoConvergence("incomplete factors: value out of range in row " + std::to_string(i));
-      for (auto p = begin; p < end; ++p)
-        slots[columns_[p]] = -1;
+      RowSum<block_size> sum;
+      for (auto p = lower_.offsets[i]; p < lower_.offsets[i + 1]; ++p)
+        sum.add(lower_.values.data() + p * block_size * block_size,
+                work_.data() + static_cast<std::size_t>(lower_.columns[p]) * width);
+      const double *in  = b + static_cast<std::size_t>(order_[i]) * block_size;
+      double       *out = work_.data() + static_cast<std::size_t>(i) * width;
+      for (int c = 0; c < block_size; ++c)
+        out[c] = in[c] - sum.component(c);
     }
 }
 
 template <int block_size>
-void BlockIlu::solve_blocks(double *x) const
+void BlockIlu::sweep_backward(int part, double *x)
 {
-  constexpr int size     = block_size * block_size;
-  const auto    subtract = [&](std::size_t begin, std::size_t end, double *sum) {
-    for (auto p = begin; p < end; ++p)
+  constexpr int width = Lanes<block_size>::width, size = block_size * block_size;
+  for (int i = parts_[part + 1] - 1; i >= parts_[part]; --i)
+    {
+      const auto         first = upper_.offsets[i];
+      RowSum<block_size> sum;
+      for (auto p = upper_.offsets[i + 1] - 1; p > first; --p)
+        sum.add(upper_.values.data() + p * size, work_.data() + static_cast<std::size_t>(upper_.columns[p]) * width);
+      double *const work = work_.data() + static_cast<std::size_t>(i) * width;
+      for (int c = 0; c < block_size; ++c)
+        work[c] -= sum.component(c);
+      RowSum<block_size> result;
+      result.add(upper_.values.data() + first * size, work);
+      double *const out = x + static_cast<std::size_t>(order_[i]) * block_size;
+      for (int c = 0; c < block_size; ++c)
+        out[c] = work[c] = result.component(c);
+    }
+}
+
+template <int block_size>
+void BlockIlu::solve_blocks(const double *b, double *x)
+{
+#pragma omp parallel num_threads(n_threads_) if (n_threads_ > 1)
+  {
+#pragma omp for schedule(static, 1)
+    for (int part = 0; part < n_threads_; ++part)
+      sweep_forward<block_size>(part, b);
+    if (separators_coupled_)
       {
-        const float  *block = factors_.data() + p * size;
-        const double *in    = x + static_cast<std::size_t>(columns_[p]) * block_size;
-        for (int c = 0; c < block_size; ++c)
-          for (int d = 0; d < block_size; ++d)
-            sum[c] -= block[c * block_size + d] * in[d];
-      }
-  };
-  for (int i = 0; i < n_rows_; ++i)
-    {
-      double  sum[block_size];
-      double *out = x + static_cast<std::size_t>(i) * block_size;
-      for (int c = 0; c < block_size; ++c)
-        sum[c] = out[c];
-      subtract(offsets_[i], diagonal_[i], sum);
-      for (int c = 0; c < block_size; ++c)
-        out[c] = sum[c];
-    }
-  for (int i = n_rows_ - 1; i >= 0; --i)
-    {
-      double  sum[block_size];
-      double *out = x + static_cast<std::size_t>(i) * block_size;
-      for (int c = 0; c < block_size; ++c)
-        sum[c] = out[c];
-      subtract(diagonal_[i] + 1, offsets_[i + 1], sum);
-      const float *inverse = factors_.data() + diagonal_[i] * size;
-      for (int c = 0; c < block_size; ++c)
+#pragma omp single
         {
-          out[c] = 0.;
-          for (int d = 0; d < block_size; ++d)
-            out[c] += inverse[c * block_size + d] * sum[d];
+          for (int part = n_threads_; part < 2 * n_threads_; ++part)
+            sweep_forward<block_size>(part, b);
+          for (int part = 2 * n_threads_ - 1; part >= n_threads_; --part)
+            sweep_backward<block_size>(part, x);
         }
-    }
+      }
+    else
+      {
+#pragma omp for schedule(static, 1)
+        for (int part = n_threads_; part < 2 * n_threads_; ++part)
+          {
+            sweep_forward<block_size>(part, b);
+            sweep_backward<block_size>(part, x);
+          }
+      }
+#pragma omp for schedule(static, 1)
+    for (int part = 0; part < n_threads_; ++part)
+      sweep_backward<block_size>(part, x);
+  }
 }
 
 void BlockIlu::factor(const SparseGraph &graph, std::span<const double> values, std::span<const double> more_values)
 {
   const auto expected = static_cast<std::size_t>(graph.offsets.back()) * block_size_ * block_size_;
-  if (graph.n_rows() != n_rows_ || values.size() + more_values.size() != expected)
-    throw DimensionMismatch("incomplete factors of " + std::to_string(n_rows_) +
+  if (graph.n_rows() != n_rows() || values.size() + more_values.size() != expected)
+    throw DimensionMismatch("incomplete factors of " + std::to_string(n_rows()) +
                             " rows: " + std::to_string(graph.n_rows()) + " rows and " +
                             std::to_string(values.size() + more_values.size()) + " values given, expected " +
                             std::to_string(expected) + " values");
@@ -272,21 +544,23 @@ void BlockIlu::factor(const SparseGraph &graph, std::span<const double> values, 
     }
 }
 
-void BlockIlu::solve(std::span<double> x) const
+void BlockIlu::solve(std::span<const double> b, std::span<double> x)
 {
-  if (x.size() != static_cast<std::size_t>(n_rows_) * block_size_)
-    throw DimensionMismatch("incomplete factors of " + std::to_string(n_rows_) + " rows of blocks of " +
-                            std::to_string(block_size_) + " applied to " + std::to_string(x.size()) + " values");
+  const auto expected = static_cast<std::size_t>(n_rows()) * block_size_;
+  if (b.size() != expected || x.size() != expected)
+    throw DimensionMismatch("incomplete factors of " + std::to_string(n_rows()) + " rows of blocks of " +
+                            std::to_string(block_size_) + " applied to " + std::to_string(b.size()) +
+                            " values, result in " + std::to_string(x.size()));
   switch (block_size_)
     {
     case 1:
-      return solve_blocks<1>(x.data());
+      return solve_blocks<1>(b.data(), x.data());
     case 2:
-      return solve_blocks<2>(x.data());
+      return solve_blocks<2>(b.data(), x.data());
     case 3:
-      return solve_blocks<3>(x.data());
+      return solve_blocks<3>(b.data(), x.data());
     default:
-      return solve_blocks<4>(x.data());
+      return solve_blocks<4>(b.data(), x.data());
     }
 }
 

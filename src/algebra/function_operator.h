@@ -27,12 +27,19 @@ public:
   /// y = alpha f(x) + beta y, column by column.
   void apply(const MultiVector &x, MultiVector &y, Teuchos::ETransp, double alpha, double beta) const override
   {
-    result_.resize(x.getLocalLength());
     for (std::size_t column = 0; column < x.getNumVectors(); ++column)
       {
-        const auto in = x.getData(column);
-        function_(std::span<const double>(in.getRawPtr(), in.size()), std::span<double>(result_));
-        const auto out = y.getDataNonConst(column);
+        const auto                    in_data  = x.getData(column);
+        const auto                    out_data = y.getDataNonConst(column);
+        const std::span<const double> in(in_data.getRawPtr(), in_data.size());
+        const std::span<double>       out(out_data.getRawPtr(), out_data.size());
+        if (alpha == 1. && beta == 0.)
+          {
+            function_(in, out);
+            continue;
+          }
+        result_.resize(in.size());
+        function_(in, std::span<double>(result_));
         for (std::size_t i = 0; i < result_.size(); ++i)
           out[i] = alpha * result_[i] + (beta == 0. ? 0. : beta * out[i]);
       }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "registers.h"
 #include <sherd/base/exceptions.h>
 
 namespace sherd
@@ -37,26 +38,47 @@ void check(const Distribution &distribution, const SparseGraph &graph, int block
     }
 }
 
+/// The scalar rows of a block row, one after the other in memory, times the same short vector.
+template <int block_size>
+void multiply_row(int length, const double *row, const double *in, double *out)
+{
+  using Doubles              = Registers<4>::Doubles;
+  Doubles   sums[block_size] = {};
+  const int n_whole          = length / 4 * 4;
+  for (int m = 0; m < n_whole; m += 4)
+    for (int c = 0; c < block_size; ++c)
+      sums[c] += *reinterpret_cast<const Doubles *>(row + c * length + m) * *reinterpret_cast<const Doubles *>(in + m);
+  for (int c = 0; c < block_size; ++c)
+    {
+      out[c] = (sums[c][0] + sums[c][1]) + (sums[c][2] + sums[c][3]);
+      for (int m = n_whole; m < length; ++m)
+        out[c] += row[c * length + m] * in[m];
+    }
+}
+
+/// The order of summation depends on the row alone, so results do not depend on the number of threads.
 template <int block_size>
 void multiply_blocks(const SparseGraph &graph, const double *values, const double *x, double *y)
 {
-  const int n_rows = graph.n_rows();
-#pragma omp parallel for schedule(static) if (n_rows > 1000)
+  const int n_rows     = graph.n_rows();
+  int       max_blocks = 0;
   for (int A = 0; A < n_rows; ++A)
-    {
-      const int     first = graph.offsets[A], n_blocks = graph.offsets[A + 1] - first, length = n_blocks * block_size;
-      const double *row             = values + static_cast<std::size_t>(first) * block_size * block_size;
-      double        sum[block_size] = {};
-      for (int k = 0; k < n_blocks; ++k)
-        {
-          const double *in = x + static_cast<std::size_t>(graph.columns[first + k]) * block_size;
-          for (int c = 0; c < block_size; ++c)
-            for (int d = 0; d < block_size; ++d)
-              sum[c] += row[c * length + k * block_size + d] * in[d];
-        }
-      for (int c = 0; c < block_size; ++c)
-        y[static_cast<std::size_t>(A) * block_size + c] = sum[c];
-    }
+    max_blocks = std::max(max_blocks, graph.offsets[A + 1] - graph.offsets[A]);
+#pragma omp parallel if (n_rows > 1000)
+  {
+    std::vector<double> gathered(static_cast<std::size_t>(max_blocks) * block_size);
+#pragma omp for schedule(static)
+    for (int A = 0; A < n_rows; ++A)
+      {
+        const int first = graph.offsets[A], n_blocks = graph.offsets[A + 1] - first;
+        for (int k = 0; k < n_blocks; ++k)
+          std::copy_n(x + static_cast<std::size_t>(graph.columns[first + k]) * block_size, block_size,
+                      gathered.data() + k * block_size);
+        multiply_row<block_size>(n_blocks * block_size,
+                                 values + static_cast<std::size_t>(first) * block_size * block_size, gathered.data(),
+                                 y + static_cast<std::size_t>(A) * block_size);
+      }
+  }
 }
 
 } // namespace

@@ -2,6 +2,8 @@
 #include <optional>
 #include <vector>
 
+#include <omp.h>
+
 #include "exchange.h"
 #include "factorisation.h"
 #include <sherd/algebra/block_ilu.h>
@@ -12,6 +14,14 @@ namespace sherd
 
 namespace
 {
+
+/// Fewer rows than these do not repay a thread and lengthen the separators.
+constexpr int rows_of_a_thread = 500;
+
+int n_threads(int n_rows)
+{
+  return std::clamp(n_rows / rows_of_a_thread, 1, omp_get_max_threads());
+}
 
 class PointBlockIlu final : public Factorisation
 {
@@ -31,7 +41,7 @@ public:
           ghost_rows_.emplace(distribution, matrix.graph());
         collectively(distribution.comm(), [&] {
           factors_.emplace(overlapping ? ghost_rows_->extended_graph() : matrix.graph(), matrix.block_size(),
-                           fill_level_);
+                           fill_level_, n_threads(distribution.n_local()));
         });
         graph_ = matrix.shared_graph();
       }
@@ -45,8 +55,7 @@ public:
   {
     if (!ghost_rows_)
       {
-        std::copy(r.begin(), r.end(), z.begin());
-        factors_->solve(z);
+        factors_->solve(r, z);
         return;
       }
     work_.resize(static_cast<std::size_t>(factors_->n_rows()) * factors_->block_size());

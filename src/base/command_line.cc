@@ -27,6 +27,7 @@ const std::vector<Option> &options()
       {"--overwrite", "", "remove earlier results in DIR first"},
       {"--check", "", "validate the input, do not run"},
       {"--max-wall", "MINUTES", "stop (exit status 4) after that many minutes"},
+      {"--profile", "", "print a table of wall time by phase and of memory at the end"},
       {"--help", "", "print this text and the parameters of the program"}};
   return all;
 }
@@ -74,6 +75,8 @@ void store(CommandLine &line, const std::string &name, const std::string &value)
     line.check = true;
   else if (name == "--max-wall")
     line.max_wall_minutes = parse_minutes(value);
+  else if (name == "--profile")
+    line.profile = true;
   else if (name == "--help")
     line.help = true;
 }

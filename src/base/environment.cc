@@ -11,6 +11,7 @@
 
 #include <sherd/base/collective.h>
 #include <sherd/base/stop_request.h>
+#include <sherd/base/threads.h>
 
 namespace sherd
 {
@@ -21,6 +22,8 @@ MpiSession::MpiSession(int &argc, char **&argv)
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
   if (provided < MPI_THREAD_FUNNELED)
     throw std::runtime_error("this MPI library does not support threads (MPI_THREAD_FUNNELED)");
+
+  set_threads_of_rank(MPI_COMM_WORLD);
 
   // Kokkos would answer --help and other options that belong to the program, so it sees the name only.
   int    n_arguments = argc > 0 ? 1 : 0;

@@ -46,10 +46,11 @@ struct CrackingPlate
   StepController                            controller{StepControlSettings{.initial = 2e-3}};
 
   CrackingPlate(MPI_Comm comm, const RefinementSettings &refinement, double speed = .2,
-                const NewtonSettings &settings = {}, std::array<int, 2> elements = {5, 12})
+                const NewtonSettings &settings = {}, std::array<int, 2> elements = {5, 12},
+                Partitioner partitioner = partition)
       : env(comm),
         plate(shapes::plate<2, 2>({10., 24.}, elements)),
-        space(env, plate),
+        space(env, plate, std::move(partitioner)),
         supports(pull(speed)),
         state(space),
         solver(model, space, supports, loads, GeneralizedAlpha(.5), settings),

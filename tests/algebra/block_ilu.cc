@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
+#include <omp.h>
 
 #include <sherd/algebra/block_ilu.h>
 #include <sherd/base/exceptions.h>
@@ -55,6 +56,36 @@ SparseGraph tridiagonal(int n)
   return graph;
 }
 
+SparseGraph complete_graph(int n)
+{
+  SparseGraph graph;
+  for (int i = 0; i < n; ++i)
+    {
+      for (int j = 0; j < n; ++j)
+        graph.columns.push_back(j);
+      graph.offsets.push_back(static_cast<int>(graph.columns.size()));
+    }
+  return graph;
+}
+
+/// The graph with row i standing for row order[i].
+SparseGraph permuted(const SparseGraph &graph, std::span<const int> order)
+{
+  std::vector<int> positions(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    positions[order[i]] = static_cast<int>(i);
+  SparseGraph result;
+  for (const int row : order)
+    {
+      std::set<int> columns;
+      for (const int j : graph.row(row))
+        columns.insert(positions[j]);
+      result.columns.insert(result.columns.end(), columns.begin(), columns.end());
+      result.offsets.push_back(static_cast<int>(result.columns.size()));
+    }
+  return result;
+}
+
 /// Symmetric graph with the diagonal and about @p n_edges random edges.
 SparseGraph random_graph(int n, int n_edges)
 {
@@ -79,7 +110,7 @@ SparseGraph random_graph(int n, int n_edges)
 }
 
 /// The product L U of the factors, by solving for the columns of its inverse.
-Dense product(const BlockIlu &factors)
+Dense product(BlockIlu &factors)
 {
   const int n       = factors.n_rows() * factors.block_size();
   Dense     inverse = Dense::Identity(n, n); // rows hold the columns of the inverse
@@ -158,7 +189,7 @@ TEST_CASE("The pattern of ILU(k) follows the definition of the level of fill")
             if (levels(i, j) <= fill_level)
               expected.push_back(j);
           const auto row = factors.row(i);
-          CHECK(std::vector<int>(row.begin(), row.end()) == expected);
+          CHECK(row == expected);
         }
     }
 }
@@ -180,6 +211,116 @@ TEST_CASE("The product of the incomplete factors is the matrix on the pattern th
       on_pattern += error.block(i * block_size, j * block_size, block_size, block_size).squaredNorm();
   CHECK(std::sqrt(on_pattern) < float_rounding * A.norm());
   CHECK(error.norm() > 100. * std::sqrt(on_pattern)); // something is left out elsewhere
+}
+
+TEST_CASE("Complete factors are exact on any number of threads, more than rows too")
+{
+  const int  block_size = GENERATE(1, 3, 4), n_threads = GENERATE(1, 2, 3, 5, 40);
+  const auto graph  = GENERATE(random_graph(25, 40), tridiagonal(30), complete_graph(6));
+  const auto values = random_values(graph, block_size);
+  const auto A      = dense(graph, block_size, values);
+
+  BlockIlu factors(graph, block_size, graph.n_rows(), n_threads);
+  factors.factor(graph, values);
+
+  CHECK((product(factors) - A).norm() < float_rounding * A.norm());
+}
+
+TEST_CASE("On several threads, too, the pattern follows the definition, in the order of elimination")
+{
+  const auto graph     = GENERATE(random_graph(40, 30), tridiagonal(40));
+  const int  n_threads = GENERATE(1, 2, 3, 5, 50);
+  for (const int fill_level : {0, 1, 3})
+    {
+      const BlockIlu factors(graph, 1, fill_level, n_threads);
+      const auto     order = factors.order();
+      CHECK(std::set<int>(order.begin(), order.end()).size() == 40);
+      const auto levels = levels_by_definition(permuted(graph, order));
+      for (int i = 0; i < graph.n_rows(); ++i)
+        {
+          std::vector<int> expected;
+          for (int j = 0; j < graph.n_rows(); ++j)
+            if (levels(i, j) <= fill_level)
+              expected.push_back(j);
+          CHECK(factors.row(i) == expected);
+        }
+    }
+}
+
+TEST_CASE("Separators are the first rows of the chunks behind the first, as many as the band is wide")
+{
+  const auto graph = tridiagonal(30);
+  for (const int n_threads : {1, 2, 3, 5})
+    {
+      const BlockIlu factors(graph, 1, 0, n_threads);
+      CHECK(factors.n_separator_rows() == n_threads - 1);
+    }
+  // One edge, given in one direction only, joins the chunks {0, 1} and {2, 3}.
+  const SparseGraph one_edge{{0, 1, 3, 4, 5}, {0, 1, 2, 2, 3}};
+  const BlockIlu    factors(one_edge, 1, 0, 2);
+  REQUIRE(factors.n_separator_rows() == 1);
+  CHECK(factors.order()[3] == 2);
+}
+
+TEST_CASE("Factors do not depend on how many threads really run, nor on the run")
+{
+  const int  block_size = 3, n_threads = 4;
+  const auto graph  = tridiagonal(200);
+  const auto values = random_values(graph, block_size);
+
+  const auto solution = [&] {
+    BlockIlu factors(graph, block_size, 1, n_threads);
+    factors.factor(graph, values);
+    std::vector<double> x(200 * block_size);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      x[i] = 1. / (i + 1.);
+    factors.solve(x);
+    return x;
+  };
+  const auto expected = solution();
+  for (int repetition = 0; repetition < 5; ++repetition)
+    CHECK(solution() == expected);
+
+  std::vector<double> on_one_thread;
+  const int           levels = omp_get_max_active_levels();
+  omp_set_max_active_levels(1);
+#pragma omp parallel num_threads(2)
+#pragma omp          single
+  on_one_thread = solution(); // inner regions have a single thread
+  omp_set_max_active_levels(levels);
+  CHECK(on_one_thread == expected);
+}
+
+TEST_CASE("One right-hand side stays as it is, or is replaced")
+{
+  const auto graph  = tridiagonal(12);
+  const auto values = random_values(graph, 3);
+  BlockIlu   factors(graph, 3, 0, 2);
+  factors.factor(graph, values);
+  const std::vector<double> b(36, 1.);
+  std::vector<double>       x(36), y = b;
+  factors.solve(b, x);
+  factors.solve(y);
+  CHECK(x == y);
+  CHECK(b == std::vector<double>(36, 1.));
+}
+
+TEST_CASE("A singular block is reported from every thread")
+{
+  const auto graph = tridiagonal(20);
+  for (const int row : {1, 10, 18}) // interior, separator, other interior
+    {
+      auto values                    = random_values(graph, 1);
+      values[graph.offsets[row] + 1] = 0.;
+      values[graph.offsets[row]]     = 0.; // nothing left of the diagonal
+      values[graph.offsets[row] + 2] = 0.;
+      BlockIlu factors(graph, 1, 0, 2);
+      CHECK_THROWS_AS(factors.factor(graph, values), NoConvergence);
+      factors.factor(graph, random_values(graph, 1)); // as good as new
+      std::vector<double> x(20, 1.);
+      factors.solve(x);
+      CHECK(std::abs(x[row]) < 1.);
+    }
 }
 
 TEST_CASE("Columns beyond the rows are left out and a missing diagonal is added")
@@ -228,6 +369,7 @@ TEST_CASE("Incomplete factors refuse what they cannot do")
   CHECK_THROWS_AS(BlockIlu(graph, 5, 0), InvalidParameter);
   CHECK_THROWS_AS(BlockIlu(graph, 0, 0), InvalidParameter);
   CHECK_THROWS_AS(BlockIlu(graph, 3, -1), InvalidParameter);
+  CHECK_THROWS_AS(BlockIlu(graph, 3, 0, 0), InvalidParameter);
 
   BlockIlu factors(graph, 1, 0);
   CHECK_THROWS_AS(factors.factor(graph, std::vector<double>(6, 1.)), DimensionMismatch);

@@ -1,5 +1,5 @@
 // label: unit
-// ranks: 1 2 3
+// ranks: 1 2 3 5
 #include <cmath>
 #include <numbers>
 
@@ -151,6 +151,19 @@ TEST_CASE("Modes of clamped membranes have their closed form, multiple ones as o
       CHECK(pairs.residuals[k] < 1e-8); // tolerance 1e-9, other norm
     }
   CHECK(pairs.n_below_shift == 0);
+  check_vectors(pairs, M, fixed);
+}
+
+TEST_CASE("A rank without control points takes part in finding modes")
+{
+  const Membranes model{.n = 12};
+  const auto      distribution = ModelSystem{model.n}.distribute(MPI_COMM_WORLD, std::max(1, ranks_of_world() - 1));
+  const auto      K = model.stiffness_matrix(distribution), M = model.mass_matrix(distribution);
+  const auto      fixed = model.clamped(*distribution);
+  const auto      pairs = lowest_eigenpairs(K, M, fixed, {.n_modes = 3});
+  const auto      exact = model.exact(1, 3);
+  for (int k = 0; k < 3; ++k)
+    CHECK(pairs.values[k] == Approx(exact[k]).epsilon(rounding));
   check_vectors(pairs, M, fixed);
 }
 

@@ -1,8 +1,9 @@
 // label: unit
-// ranks: 1 2 3
+// ranks: 1 2 3 5
 #include <limits>
 
 #include <catch2/catch.hpp>
+#include <omp.h>
 
 #include <sherd/algebra/linear_solver.h>
 #include <sherd/base/exceptions.h>
@@ -70,6 +71,24 @@ TEST_CASE("A rank without control points takes part")
   const auto        outcome = solve_known(system, {.preconditioner = preconditioner, .tolerance = 1e-10}, distribution);
   CHECK(outcome.report.used == preconditioner);
   CHECK(outcome.error < 1e-8);
+}
+
+TEST_CASE("Two threads take the iterations of one, more threads at most two more")
+{
+  const int         n_threads = omp_get_max_threads();
+  const auto        bending   = GENERATE(0., 0.1);
+  const ModelSystem system{.n = 90, .inertia = 0.1, .bending = bending}; // rows for several threads on each rank
+  const auto        iterations = [&](int n) {
+    omp_set_num_threads(n);
+    const auto outcome = solve_known(system, {.tolerance = 1e-8, .escalation = Escalation::never});
+    omp_set_num_threads(n_threads);
+    CHECK(outcome.report.relative_residual <= 1e-8);
+    return outcome.report.iterations;
+  };
+  const int on_one = iterations(1);
+  CHECK(std::abs(iterations(2) - on_one) <= 1);
+  for (const int n : {3, 5})
+    CHECK(iterations(n) <= on_one + 2);
 }
 
 TEST_CASE("Iterations do not depend on the units of the fields")

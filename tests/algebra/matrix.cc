@@ -1,6 +1,7 @@
 // label: unit
 // ranks: 1 2 3
 #include <catch2/catch.hpp>
+#include <omp.h>
 
 #include <sherd/algebra/matrix.h>
 #include <sherd/base/exceptions.h>
@@ -34,6 +35,28 @@ TEST_CASE("The product with a vector is the sum over the stencil, on any number 
       for (int c = 0; c < 3; ++c)
         CHECK(out[row * 3 + c] == Approx(expected[c]).margin(1e-13)); // sums of 75 products of order 1
     }
+}
+
+TEST_CASE("The product is the same on any number of threads")
+{
+  const ModelSystem system{.n = 60}; // enough rows for threads on each rank
+  const auto        distribution = system.distribute(MPI_COMM_WORLD);
+  const auto        A            = system.matrix(distribution);
+  const auto        x            = random_vector(distribution, 3);
+  const int         n_threads    = omp_get_max_threads();
+  Vector            one(distribution, 3), other(distribution, 3);
+
+  omp_set_num_threads(1);
+  A.multiply(x, one);
+  for (const int n : {2, 3})
+    {
+      omp_set_num_threads(n);
+      other.fill(0.);
+      A.multiply(x, other);
+      CHECK(std::equal(one.owned().begin(), one.owned().end(), other.owned().begin()));
+    }
+  omp_set_num_threads(n_threads);
+  CHECK(norm(one) > 0.);
 }
 
 TEST_CASE("Every block size multiplies")

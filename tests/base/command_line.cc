@@ -27,7 +27,7 @@ TEST_CASE("CommandLine: without arguments the defaults hold", "[command_line]")
   CHECK(line.output_directory == "output");
   CHECK_FALSE(line.restart);
   CHECK_FALSE(line.max_wall_minutes);
-  CHECK_FALSE((line.overwrite || line.check || line.help));
+  CHECK_FALSE((line.overwrite || line.check || line.profile || line.help));
 }
 
 TEST_CASE("CommandLine: every option arrives, in both forms and any order", "[command_line]")
@@ -43,6 +43,7 @@ TEST_CASE("CommandLine: every option arrives, in both forms and any order", "[co
   CHECK(line.max_wall_minutes == 0.5);
   CHECK((line.check && line.help && !line.overwrite));
   CHECK(parse({"--overwrite"}).overwrite);
+  CHECK(parse({"--profile"}).profile);
 }
 
 TEST_CASE("CommandLine: a restart goes on where its checkpoint is", "[command_line]")
@@ -89,7 +90,7 @@ TEST_CASE("CommandLine: the usage names the program and every option", "[command
 {
   CHECK_THAT(usage("step-7"), Contains("usage: step-7 [case.yaml]"));
   for (const char *option : {"--set section.key=value", "--output DIR", "--restart FILE", "--overwrite", "--check",
-                             "--max-wall MINUTES", "--help"})
+                             "--max-wall MINUTES", "--profile", "--help"})
     CHECK_THAT(usage("step-7"), Contains(std::string("[") + option + "]") && Contains(std::string("\n  ") + option));
 }
 

@@ -1,5 +1,5 @@
 // label: unit
-// ranks: 1 2 3
+// ranks: 1 2 3 5
 #include <catch2/catch.hpp>
 
 #include <fstream>
@@ -13,6 +13,7 @@
 #include <sherd/base/timers.h>
 #include <sherd/output/checkpoint_writer.h>
 #include <sherd/output/restart.h>
+#include <space/shared_out.h>
 
 #include "rational_surfaces.h"
 #include "temporary_folder.h"
@@ -321,12 +322,18 @@ TEST_CASE("A checkpoint does not know the number of ranks that wrote it", "[outp
     }
 
   CHECK((::test::content(by_one) == ::test::content(by_all)));
-  for (const auto *env : {&alone, &world})
-    {
-      const auto             found = read_checkpoint<2, 2>(*env, by_all);
-      const ShellSpace<2, 2> space(*env, found.surface);
-      check_same(gather(distribute(found.state, space), space), global);
-    }
+  // Read by one rank, by all, by two of them, and with one that owns nothing.
+  MPI_Comm two;
+  MPI_Comm_split(MPI_COMM_WORLD, world.rank() / 2, 0, &two);
+  const Environment pair(two);
+  for (const auto *env : {&alone, &world, &pair})
+    for (const auto &partitioner : {Partitioner(partition), ::sherd::test::leaving_out(env->n_ranks() / 2)})
+      {
+        const auto             found = read_checkpoint<2, 2>(*env, by_all);
+        const ShellSpace<2, 2> space(*env, found.surface, partitioner);
+        check_same(gather(distribute(found.state, space), space), global);
+      }
+  MPI_Comm_free(&two);
 }
 
 TEST_CASE("A damaged checkpoint is refused with a message, whatever was hit", "[output][checkpoint]")

@@ -5,8 +5,10 @@
 #include <catch2/catch.hpp>
 
 #include <geometry/sample_surfaces.h>
+#include <sherd/base/exceptions.h>
 #include <sherd/space/ordering.h>
 #include <sherd/space/shell_space.h>
+#include <space/shared_out.h>
 
 using namespace sherd;
 
@@ -175,6 +177,55 @@ TEST_CASE("More ranks than control points leave some empty")
     }
   CHECK(n_owned == 9);
   CHECK(n_empty >= 3);
+}
+
+TEST_CASE("Ranks get control points of similar cost, also where the mesh is graded")
+{
+  // Fine along a diagonal: there elements and rows of the matrix are as many as elsewhere in a far larger area.
+  auto surface = shapes::plate<2, 2>({1., 1.}, {16, 16});
+  for (const double h : {1. / 32, 1. / 64})
+    {
+      std::vector<int> marked;
+      const auto       X = surface.control_points();
+      for (int i = 0; i < X.rows(); ++i)
+        if (std::abs(X(i, 0) - X(i, 1)) < .1)
+          marked.push_back(i);
+      surface.refine(marked, {{h, h}});
+    }
+  const auto topology = topology_of(surface);
+  const int  n_ranks  = GENERATE(2, 3, 5);
+  double     elements = 0., blocks = 0., most_elements = 0., most_blocks = 0.;
+  for (int rank = 0; rank < n_ranks; ++rank)
+    {
+      const auto d = distribute(topology, n_ranks, rank);
+      elements += static_cast<double>(d.elements.size()) / n_ranks;
+      blocks += static_cast<double>(d.graph.columns.size()) / n_ranks;
+      most_elements = std::max(most_elements, static_cast<double>(d.elements.size()));
+      most_blocks   = std::max(most_blocks, static_cast<double>(d.graph.columns.size()));
+    }
+  CHECK(most_blocks < 1.03 * blocks);
+  // Elements on a border count on both sides, and parts have borders of different length.
+  CHECK(most_elements < 1.08 * elements);
+}
+
+TEST_CASE("Another rule may share the control points out, as long as it names ranks")
+{
+  const auto topology = topology_of(refined_plate());
+  for (int rank = 0; rank < 4; ++rank)
+    {
+      const auto d = distribute(topology, 4, rank, test::leaving_out(2));
+      CHECK((rank == 2) == d.owned.empty());
+      CHECK((rank == 2) == d.elements.empty());
+    }
+  const auto of = [&](int rank, int surplus) {
+    return [=](const SparseGraph &graph, std::span<const int>, int) {
+      return std::vector<int>(graph.n_rows() + surplus, rank);
+    };
+  };
+  CHECK(distribute(topology, 2, 1, of(1, 0)).owned.size() == static_cast<std::size_t>(topology.n_points));
+  CHECK_THROWS_AS(distribute(topology, 2, 0, of(2, 0)), InvalidParameter);
+  CHECK_THROWS_AS(distribute(topology, 2, 0, of(-1, 0)), InvalidParameter);
+  CHECK_THROWS_AS(distribute(topology, 2, 0, of(0, 1)), DimensionMismatch);
 }
 
 TEST_CASE("The space follows its surface")

@@ -1,8 +1,9 @@
 // label: unit
-// ranks: 1 2 3
+// ranks: 1 2 3 5
 #include <catch2/catch.hpp>
 
 #include <geometry/sample_surfaces.h>
+#include <space/shared_out.h>
 #include <sherd/state/state.h>
 
 using namespace sherd;
@@ -94,6 +95,34 @@ TEST_CASE("Distributing and gathering a state gives the same bits on any number 
   for (int e = 0; e < space.n_active_elements(); ++e)
     for (int q = 0; q < 9; ++q)
       CHECK(state.history[e][q] == global.history(space.distribution().elements[e], q));
+}
+
+TEST_CASE("State and history move with their control points and elements when these go to other ranks")
+{
+  const auto             surface = refined_plate();
+  const Environment      env(MPI_COMM_WORLD);
+  const int              last   = env.n_ranks() - 1;
+  const auto             global = random_state(surface);
+  const ShellSpace<2, 2> first(env, surface), second(env, surface, test::leaving_out(last)),
+      third(env, surface, test::leaving_out(0));
+  const auto moved = distribute(gather(distribute(global, first), first), second);
+  const auto again = distribute(gather(moved, second), third);
+  if (env.n_ranks() > 1)
+    {
+      CHECK((env.rank() == last) == (second.n_active_elements() == 0));
+      CHECK((env.rank() == 0) == (third.n_active_elements() == 0));
+    }
+
+  for (const auto &[space, state] : {std::pair(&second, &moved), std::pair(&third, &again)})
+    {
+      for (int e = 0; e < space->n_active_elements(); ++e)
+        for (int q = 0; q < 9; ++q)
+          CHECK(state->history[e][q] == global.history(space->distribution().elements[e], q));
+      const auto back = gather(*state, *space);
+      CHECK(back.history == global.history);
+      CHECK(back.position == global.position);
+      CHECK(back.previous_phase == global.previous_phase);
+    }
 }
 
 TEST_CASE("The history that is gathered is its owner's")

@@ -10,15 +10,12 @@
 #include <sherd/adapt/adaptivity.h>
 #include <sherd/base/formula.h>
 #include <sherd/base/output_directory.h>
-#include <sherd/base/print.h>
-#include <sherd/base/stop_request.h>
 #include <sherd/fracture/crack_density/fourth_order.h>
 #include <sherd/fracture/degradation/cubic.h>
 #include <sherd/geometry/shapes.h>
 #include <sherd/material/split/surface_stretch.h>
-#include <sherd/output/checkpoint_writer.h>
+#include <sherd/output/recorded_run.h>
 #include <sherd/output/restart.h>
-#include <sherd/output/run_recorder.h>
 #include <sherd/solve/instances.h>
 #include <sherd/time/generalized_alpha.h>
 
@@ -152,7 +149,6 @@ void break_plate(const Environment &env, const step_7::Parameters &prm)
 
   directory.prepare();
   write_parameters(env, directory.file("used.yaml"), prm);
-  CheckpointWriter          checkpoints(env, directory, prm.checkpoint);
   const RecorderSettings<2> recording{.crack    = {.length_scale   = material.length_scale,
                                                    .rayleigh_speed = solver.rayleigh_speed(),
                                                    .target_size    = prm.refinement.target},
@@ -160,34 +156,13 @@ void break_plate(const Environment &env, const step_7::Parameters &prm)
                                       .frames   = prm.frames,
                                       .points   = {{"upper_corner", {prm.plate.size[0], prm.plate.size[1]}}},
                                       .edges    = {"top", "bottom"}};
-  auto recorder = checkpoint ? RunRecorder<2, 2>(env, directory, blank, checkpoint->recorder, recording)
-                             : RunRecorder<2, 2>(env, directory, blank, solver.energies(state), recording);
-  if (!checkpoint)
-    recorder.start(solver, space, state);
-  try
-    {
-      while (state.time < prm.time.end)
-        {
-          const auto step = adaptivity.advance(solver, plate, space, state, controller, prm.time.end);
-          recorder.record(solver, space, state, step);
-          const auto reason = stop_requested(env);
-          if (reason || checkpoints.due(state.step))
-            checkpoints.write(solver, space, state, controller, recorder);
-          if (reason)
-            {
-              recorder.finish(solver, *reason);
-              throw StoppedEarly("at t = " + print(state.time) + " s: " + *reason + "; " + checkpoints.advice());
-            }
-        }
-    }
-  catch (const NoConvergence &error)
-    {
-      // All ranks fail together. What is known so far is worth a summary, and with other settings the run may go on.
-      checkpoints.write(solver, space, state, controller, recorder);
-      recorder.finish(solver, error.what());
-      throw NoConvergence(error.what() + ("; to retry with other settings, " + checkpoints.advice()));
-    }
-  recorder.finish(solver, "done");
+
+  // Each step leaves its rows, and now and then a frame and a checkpoint; a signal or --max-wall ends the run between
+  // two steps, with a checkpoint.
+  RecordedRun run(env, directory, blank, checkpoint, recording, prm.checkpoint, solver, space, state, controller);
+  while (state.time < prm.time.end)
+    run.step([&] { return adaptivity.advance(solver, plate, space, state, controller, prm.time.end); });
+  run.finish();
 }
 
 int main(int argc, char **argv)

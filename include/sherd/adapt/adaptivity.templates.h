@@ -23,11 +23,13 @@ template <class Solver>
 void Adaptivity<Model>::prepare(Solver &solver, SurfaceType &surface, SpaceType &space, StateType &state,
                                 const PreCrack<spacedim> &pre_crack)
 {
-  const auto &model = solver.model();
+  const auto &model  = solver.model();
+  auto       &timers = solver.timers();
   {
-    const auto timing = solver.timers().measure("refine");
+    const auto timing = timers.measure("partition");
     for (;;)
       {
+        const auto       marking = timers.measure("marking");
         std::vector<int> marked;
         const auto       X = surface.control_points();
         for (const int point : coarse_points(surface, target_))
@@ -41,6 +43,7 @@ void Adaptivity<Model>::prepare(Solver &solver, SurfaceType &surface, SpaceType 
           }
         if (marked.empty())
           break;
+        const auto refining = timers.measure("refine");
         surface.refine(marked, target_);
       }
     space.rebuild();
@@ -48,7 +51,8 @@ void Adaptivity<Model>::prepare(Solver &solver, SurfaceType &surface, SpaceType 
   }
   solver.rebuild(state);
 
-  const auto X = surface.control_points();
+  const auto timing = timers.measure("initial state");
+  const auto X      = surface.control_points();
   for (int a = 0; a < state.distribution->n_local(); ++a)
     state.phase.local()[a] =
         pre_crack.phase(Point<spacedim>(X.row(state.distribution->global(a)).transpose()), model.crack_density);
@@ -74,25 +78,33 @@ template <class Solver>
 void Adaptivity<Model>::refine(Solver &solver, SurfaceType &surface, SpaceType &space, StateType &state,
                                const Triggers<spacedim> &triggers)
 {
+  auto &timers = solver.timers();
   {
-    const auto timing = solver.timers().measure("refine");
+    const auto timing = timers.measure("transfer");
     auto       global = gather(state, space);
     // At least the triggering functions themselves, whatever the rounding of their positions.
     const double radius = std::max(settings_.halo, .5 * settings_.target);
     for (;;)
       {
-        const auto marked = coarse_points_near(surface, target_, triggers.positions, radius);
+        const auto marking = timers.measure("marking");
+        const auto marked  = coarse_points_near(surface, target_, triggers.positions, radius);
         if (marked.empty())
           break;
-        const auto boxes      = element_boxes(surface);
-        const auto refinement = surface.refine(marked, target_);
-        global                = transfer(global, boxes, refinement, surface);
+        const auto refining     = timers.measure("refine");
+        const auto boxes        = element_boxes(surface);
+        const auto refinement   = surface.refine(marked, target_);
+        const auto transferring = timers.measure("transfer");
+        global                  = transfer(global, boxes, refinement, surface);
       }
-    space.rebuild();
+    {
+      const auto partitioning = timers.measure("partition");
+      space.rebuild();
+    }
     state = distribute(global, space);
   }
   solver.rebuild(state);
-  Vector at_rest = state.acceleration;
+  const auto timing  = timers.measure("transfer");
+  Vector     at_rest = state.acceleration;
   at_rest.fill(0.);
   state.history = solver.assembler().committed({state.position, at_rest, state.phase}, state.history);
 }
@@ -122,7 +134,10 @@ StepSummary Adaptivity<Model>::advance(Solver &solver, SurfaceType &surface, Spa
           continue;
         }
 
-      const auto triggers = find_triggers(solver.assembler(), *result.state, target_, settings_);
+      const auto triggers = [&] {
+        const auto timing = solver.timers().measure("marking");
+        return find_triggers(solver.assembler(), *result.state, target_, settings_);
+      }();
       if (!triggers.empty() && triggers.smallest_phase < settings_.recompute_phase)
         {
           refine(solver, surface, space, state, triggers);

@@ -69,7 +69,11 @@ public:
   /// Internal and inertial forces and the phase residual on the owned control points, block n_fields.
   void force(const BalanceLevel &level, const QuadratureField &history, Vector &force) const;
 
-  /// The same and the tangent; mass_weight * M is added to its displacement block.
+  /// The same with loads: also the external force on the owned control points, block n_fields.
+  void force(const BalanceLevel &level, const QuadratureField &history, const LoadValues<Model> &loads, Vector &force,
+             Vector &external) const;
+
+  /// Internal forces and the tangent; mass_weight * M is added to its displacement block.
   void linearise(const BalanceLevel &level, const QuadratureField &history, double mass_weight,
                  PhaseTangent phase_tangent, Vector &force, Matrix &matrix) const;
 

@@ -226,6 +226,14 @@ void Assembler<Model>::scatter_matrix(int active, const ElementMatrix<Model> &k,
 template <class Model>
 void Assembler<Model>::force(const BalanceLevel &level, const QuadratureField &history, Vector &force) const
 {
+  Vector none = force;
+  this->force(level, history, {}, force, none);
+}
+
+template <class Model>
+void Assembler<Model>::force(const BalanceLevel &level, const QuadratureField &history, const LoadValues<Model> &loads,
+                             Vector &force, Vector &external) const
+{
   force.fill(0.);
 #pragma omp parallel for schedule(static, 1)
   for (std::size_t r = 0; r < ranges_.size(); ++r)
@@ -236,6 +244,7 @@ void Assembler<Model>::force(const BalanceLevel &level, const QuadratureField &h
         element_force(*model_, elements_[e], f, history[e], vector);
         scatter_force(e, vector, ranges_[r], force);
       }
+  external_force(level, loads, external);
 }
 
 template <class Model>

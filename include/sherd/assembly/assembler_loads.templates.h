@@ -100,13 +100,17 @@ void Assembler<Model>::external_force(const BalanceLevel &level, const LoadValue
 {
   force.fill(0.);
   if constexpr (spacedim == 3)
-    for (std::size_t e = 0; e < loads.pressure.size(); ++e)
+    if (!loads.pressure.empty())
       {
-        const int            active   = static_cast<int>(e);
-        const auto           f        = fields(active, level.position, level.acceleration, level.phase);
-        ElementVector<Model> pressure = {};
-        add_pressure(elements_[e], f, loads.pressure[e], pressure);
-        scatter_force(active, pressure, all_rows(), force);
+#pragma omp parallel for schedule(static, 1)
+        for (std::size_t r = 0; r < ranges_.size(); ++r)
+          for (const int e : ranges_[r].elements)
+            {
+              const auto           f        = fields(e, level.position, level.acceleration, level.phase);
+              ElementVector<Model> pressure = {};
+              add_pressure(elements_[e], f, loads.pressure[e], pressure);
+              scatter_force(e, pressure, ranges_[r], force);
+            }
       }
   if (loads.dead)
     axpy(1., *loads.dead, force);

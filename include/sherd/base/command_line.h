@@ -21,7 +21,8 @@ struct CommandLine
   bool                       overwrite = false;           ///< earlier results may be removed
   bool                       check     = false;           ///< validate, do not run
   std::optional<double>      max_wall_minutes;            ///< stop with a checkpoint after that
-  bool                       help = false;                ///< print the usage, do not run
+  bool                       profile = false;             ///< print where time and memory went at the end
+  bool                       help    = false;             ///< print the usage, do not run
 };
 
 /// Reads @p arguments (without the program's name). An option and its value may be two words or joined by '='.

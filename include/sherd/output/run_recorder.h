@@ -9,6 +9,7 @@
 #include <sherd/base/all_gather.h>
 #include <sherd/base/collective.h>
 #include <sherd/base/output_directory.h>
+#include <sherd/base/profile.h>
 #include <sherd/base/progress.h>
 #include <sherd/output/crack_tracker.h>
 #include <sherd/output/fields_file.h>
@@ -92,7 +93,8 @@ public:
       write_frame(solver, space, state);
   }
 
-  /// Writes summary.json. @param ending   how the run ended, for example "done"
+  /// Writes summary.json, and with --profile a table of time and memory to the terminal.
+  /// @param ending   how the run ended, for example "done"
   template <class Solver>
   void finish(Solver &solver, const std::string &ending);
 

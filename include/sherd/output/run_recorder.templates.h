@@ -39,8 +39,11 @@ void RunRecorder<degree, spacedim>::write_rows(Solver &solver, const SpaceType &
   for (const auto &edge : settings_.edges)
     reactions.push_back(solver.reaction(edge));
   const auto all = snapshot(state);
+  {
+    const auto tracking = solver.timers().measure("tracker");
+    on_root(env_.comm(), [&] { files_->tracker.update(space.surface(), all.phase, state.time); });
+  }
   on_root(env_.comm(), [&] {
-    files_->tracker.update(space.surface(), all.phase, state.time);
     row.crack_length   = files_->tracker.length();
     row.tips           = files_->tracker.tree().n_active();
     const auto fastest = files_->tracker.tree().fastest();
@@ -84,7 +87,8 @@ void RunRecorder<degree, spacedim>::write_frame(Solver &solver, const SpaceType 
   const auto all = snapshot(state);
   on_root(env_.comm(), [&] {
     std::vector<ElementField> fields{{"elastic energy", std::vector<double>(entries.size())},
-                                     {"fracture energy", std::vector<double>(entries.size())}};
+                                     {"fracture energy", std::vector<double>(entries.size())},
+                                     {"rank", {d.element_owner.begin(), d.element_owner.end()}}};
     for (const auto &entry : entries)
       {
         fields[0].values[entry.element] = entry.elastic;
@@ -103,6 +107,8 @@ void RunRecorder<degree, spacedim>::finish(Solver &solver, const std::string &en
   const auto  seconds = phase_seconds(solver);
   const auto &last    = memory_.last;
   const auto &totals  = memory_.totals;
+  // Meshes only grow: the last one is the largest.
+  const auto profile = make_profile(env_.comm(), solver.timers(), env_.elapsed_seconds(), last.dofs);
   on_root(env_.comm(), [&] {
     JsonObject wall;
     for (const auto &[phase, value] : seconds)
@@ -151,8 +157,16 @@ void RunRecorder<degree, spacedim>::finish(Solver &solver, const std::string &en
                                                             .add("newton", totals.newton)
                                                             .add("linear", totals.linear))
                                          .add("wall_seconds", wall)
+                                         .add("memory", JsonObject()
+                                                            .add("peak_bytes", profile.memory.sum)
+                                                            .add("largest_rank", profile.memory.largest)
+                                                            .add("per_unknown", profile.bytes_per_unknown()))
+                                         .add("ranks", profile.n_ranks)
+                                         .add("threads", profile.n_threads)
                                          .add("branched_at", branchings)
                                          .add("tips", tips));
+    if (env_.command_line().profile)
+      std::cout << table(profile) << std::flush;
   });
 }
 

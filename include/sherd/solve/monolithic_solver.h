@@ -102,7 +102,10 @@ private:
   bool  iterate(System &system, Result &result);
   void  leave_false_branch(System &system, const Vector &start, Result &result);
   bool  on_stable_branch(System &system, Result &result);
+  bool  expects_convergence(const std::vector<double> &residuals) const;
   Norms linearise(System &system, PhaseTangent tangent);
+  Norms evaluate(System &system);
+  Norms balance(System &system, Vector force);
   void  solve_increment(System &system, Result &result);
 
   const Model                        *model_;

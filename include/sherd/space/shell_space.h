@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -8,6 +9,7 @@
 #include <sherd/base/environment.h>
 #include <sherd/base/sparse_graph.h>
 #include <sherd/geometry/surface.h>
+#include <sherd/space/partition.h>
 
 namespace sherd
 {
@@ -43,9 +45,17 @@ struct SpaceDistribution
   std::vector<int>          element_owner;   ///< rank of every element of the surface, shape=(n_elements)
 };
 
-/// Partitions the control points (METIS), orders those of rank @p rank and lists its elements. Deterministic, the same
-/// on all ranks up to @p rank. Not collective: every rank computes the partition itself.
-SpaceDistribution distribute(const SpaceTopology &topology, int n_ranks, int rank);
+/// Part of each vertex of a graph, in [0, n_parts), as partition() gives it or by a rule of the caller: the same on all
+/// ranks for the same arguments. Parts may be empty.
+using Partitioner =
+    std::function<std::vector<int>(const SparseGraph &graph, std::span<const int> weights, int n_parts)>;
+
+/// Partitions the control points by what they cost (share of the elements, row of the matrix), orders those of rank
+/// @p rank and lists its elements. Deterministic, the same on all ranks up to @p rank. Not collective: every rank
+/// computes the partition itself.
+/// @throws InvalidParameter, DimensionMismatch   a @p partitioner that names a rank there is not, or not for all points
+SpaceDistribution distribute(const SpaceTopology &topology, int n_ranks, int rank,
+                             const Partitioner &partitioner = partition);
 
 /// Numbering of the unknowns of a shell: spacedim displacements and one phase value a control point.
 template <int degree, int spacedim>
@@ -55,7 +65,8 @@ public:
   static constexpr int n_fields = fields_per_point<spacedim>;
 
   /// @p surface has to outlive the space. Rebuild after each refinement.
-  ShellSpace(const Environment &env, const Surface<degree, spacedim> &surface) : env_(env), surface_(&surface)
+  ShellSpace(const Environment &env, const Surface<degree, spacedim> &surface, Partitioner partitioner = partition)
+      : env_(env), surface_(&surface), partitioner_(std::move(partitioner))
   {
     rebuild();
   }
@@ -75,7 +86,7 @@ public:
             topology.offsets.push_back(static_cast<int>(topology.points.size()));
           }
       }
-    distribution_ = distribute(topology, env_.n_ranks(), env_.rank());
+    distribution_ = distribute(topology, env_.n_ranks(), env_.rank(), partitioner_);
   }
 
   const Environment               &environment() const { return env_; }
@@ -96,6 +107,7 @@ public:
 private:
   Environment                      env_;
   const Surface<degree, spacedim> *surface_;
+  Partitioner                      partitioner_;
   SpaceDistribution                distribution_;
 };
 
