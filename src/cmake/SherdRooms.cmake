@@ -22,9 +22,6 @@ function(sherd_room room)
   target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
                                                 $<INSTALL_INTERFACE:include>)
   target_link_libraries(${target} ${scope} Eigen3::Eigen MPI::MPI_CXX OpenMP::OpenMP_CXX)
-  # Small products of Eigen at every quadrature point are calls unless inlining is forced: a tenth of the element loop.
-  target_compile_definitions(${target} ${scope}
-                             $<$<CONFIG:Release>:EIGEN_STRONG_INLINE=__attribute__\(\(always_inline\)\)\ inline>)
   # Eigen's alignment follows the instruction set, so all that links to the library is compiled alike.
   if(SHERD_NATIVE)
     target_compile_options(${target} ${scope} -march=native)
@@ -53,6 +50,10 @@ sherd_room(state ROOMS base spline geometry fracture space algebra)
 sherd_room(assembly ROOMS base spline geometry kinematics material fracture space forms algebra state)
 sherd_room(time ROOMS base algebra state)
 sherd_room(solve ROOMS base spline geometry kinematics material fracture space forms algebra state assembly time)
+# Small products of Eigen at every quadrature point are calls unless inlining is forced: a tenth of the element loop of
+# the models in solve/instances.h, and twice the time to compile them.
+target_compile_definitions(sherd_solve
+                           PRIVATE $<$<CONFIG:Release>:EIGEN_STRONG_INLINE=__attribute__\(\(always_inline\)\)\ inline>)
 sherd_room(output ROOMS base spline geometry kinematics material fracture space forms algebra state assembly time
            PRIVATE sherd_hdf5 ZLIB::ZLIB)
 sherd_room(adapt ROOMS base spline geometry kinematics material fracture space forms algebra state assembly time solve)
