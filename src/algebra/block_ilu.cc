@@ -173,6 +173,30 @@ struct Lanes
   }
 };
 
+/// Reverses the order of @p rows; deferred ones go behind the last of their neighbours in the new order.
+void reverse(std::span<int> rows, const SparseGraph &graph, std::span<const char> deferred)
+{
+  std::reverse(rows.begin(), rows.end());
+  if (deferred.empty())
+    return;
+  std::vector<int> places(graph.n_rows(), -1);
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    places[rows[k]] = static_cast<int>(k);
+  std::vector<std::pair<int, int>> keys; // place of the row or of its last neighbour, and whether it is deferred
+  for (const int row : rows)
+    {
+      int last = places[row];
+      if (deferred[row])
+        for (const int j : graph.row(row))
+          if (j < graph.n_rows() && !deferred[j])
+            last = std::max(last, places[j]);
+      keys.push_back({last, deferred[row]});
+    }
+  std::vector<int> sorted(rows.begin(), rows.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [&](int a, int b) { return keys[places[a]] < keys[places[b]]; });
+  std::copy(sorted.begin(), sorted.end(), rows.begin());
+}
+
 bool all_finite(std::span<const float> values)
 {
   constexpr std::size_t n_lanes        = 16;
@@ -213,7 +237,8 @@ struct RowSum
 
 } // namespace
 
-BlockIlu::BlockIlu(const SparseGraph &graph, int block_size, int fill_level, int n_threads)
+BlockIlu::BlockIlu(const SparseGraph &graph, int block_size, int fill_level, int n_threads,
+                   std::span<const char> deferred)
     : block_size_(block_size), fill_level_(fill_level), n_threads_(n_threads)
 {
   if (block_size < 1 || block_size > 4)
@@ -222,11 +247,14 @@ BlockIlu::BlockIlu(const SparseGraph &graph, int block_size, int fill_level, int
     throw InvalidParameter("level of fill = " + std::to_string(fill_level) + ", expected at least 0");
   if (n_threads < 1)
     throw InvalidParameter("threads of incomplete factors = " + std::to_string(n_threads) + ", expected at least 1");
-  cut(graph);
+  if (!deferred.empty() && static_cast<int>(deferred.size()) != graph.n_rows())
+    throw DimensionMismatch("incomplete factors of " + std::to_string(graph.n_rows()) +
+                            " rows: " + std::to_string(deferred.size()) + " marks of deferred rows");
+  cut(graph, deferred);
   find_pattern(graph);
 }
 
-void BlockIlu::cut(const SparseGraph &graph)
+void BlockIlu::cut(const SparseGraph &graph, std::span<const char> deferred)
 {
   const int         n_rows = graph.n_rows();
   std::vector<int>  chunks(n_rows);
@@ -240,6 +268,15 @@ void BlockIlu::cut(const SparseGraph &graph)
     for (const int j : graph.row(i))
       if (j < n_rows && chunks[i] != chunks[j])
         in_separator[std::max(i, j)] = 1;
+  // A deferred row stays behind its neighbours: it goes to the separator with any of them.
+  std::vector<int> followers;
+  for (int i = 0; i < n_rows && !deferred.empty(); ++i)
+    if (const auto row = graph.row(i); deferred[i] && std::any_of(row.begin(), row.end(), [&](int j) {
+                                         return j < n_rows && in_separator[j] && chunks[j] == chunks[i];
+                                       }))
+      followers.push_back(i);
+  for (const int i : followers)
+    in_separator[i] = 1;
 
   const auto part = [&](int i) { return chunks[i] + (in_separator[i] ? n_threads_ : 0); };
   parts_.assign(2 * n_threads_ + 1, 0);
@@ -252,7 +289,7 @@ void BlockIlu::cut(const SparseGraph &graph)
   for (int i = 0; i < n_rows; ++i)
     order_[next[part(i)]++] = i;
   for (int p = 1; p < n_threads_; p += 2)
-    std::reverse(order_.begin() + parts_[p], order_.begin() + parts_[p + 1]);
+    reverse({order_.begin() + parts_[p], order_.begin() + parts_[p + 1]}, graph, deferred);
 }
 
 void BlockIlu::find_pattern(const SparseGraph &graph)

@@ -76,7 +76,8 @@ RowExtent extent(std::span<const double> values, std::size_t diagonal)
 enum class RowKind : unsigned char
 {
   ordinary,
-  known, ///< the diagonal alone
+  known,    ///< the diagonal alone
+  negative, ///< a negative diagonal, as that of a multiplier, which may be next to nothing
   without_diagonal,
   zero,
   not_finite
@@ -102,7 +103,7 @@ std::int64_t first_of(RowKind kind, std::span<const RowKind> kinds, const Distri
   return result;
 }
 
-/// Sets the scaling of ordinary and known rows.
+/// Sets the scaling of rows that have a diagonal.
 std::vector<RowKind> classify(const Matrix &matrix, std::span<double> scaling)
 {
   constexpr double     negligible = 1e-14;
@@ -128,13 +129,16 @@ std::vector<RowKind> classify(const Matrix &matrix, std::span<double> scaling)
             scaling[row] = 1. / std::sqrt(found.diagonal);
             if (found.largest_off_diagonal == 0.)
               kinds[row] = RowKind::known;
+            else if (matrix.diagonal(A, c) < 0.)
+              kinds[row] = RowKind::negative;
           }
       }
   });
   return kinds;
 }
 
-/// Scales rows without diagonal by their largest entry after the columns are scaled.
+/// Scales rows without diagonal by their largest entry after the columns are scaled; those of a negative one too, if
+/// that is more than it asks for.
 void scale_by_largest(const Matrix &matrix, std::span<const RowKind> kinds, std::vector<double> &scaling)
 {
   const int block_size = matrix.block_size();
@@ -145,15 +149,15 @@ void scale_by_largest(const Matrix &matrix, std::span<const RowKind> kinds, std:
     for (int c = 0; c < block_size; ++c)
       {
         const auto row = static_cast<std::size_t>(A) * block_size + c;
-        if (kinds[row] != RowKind::without_diagonal)
+        if (kinds[row] != RowKind::without_diagonal && kinds[row] != RowKind::negative)
           continue;
         const auto values  = matrix.values().subspan(matrix.row_start(A) + c * length, length);
         double     largest = 0.;
         for (std::size_t m = 0; m < length; ++m)
-          largest = std::max(
-              largest, std::abs(values[m]) *
-                           scaling[static_cast<std::size_t>(columns[m / block_size]) * block_size + m % block_size]);
-        scaled[row] = 1. / largest;
+          if (const auto column = static_cast<std::size_t>(columns[m / block_size]) * block_size + m % block_size;
+              column != row)
+            largest = std::max(largest, std::abs(values[m]) * scaling[column]);
+        scaled[row] = kinds[row] == RowKind::negative ? std::min(scaling[row], 1. / largest) : 1. / largest;
       }
   });
   scaling = std::move(scaled);
@@ -198,7 +202,8 @@ Equilibration equilibrate(Matrix &matrix)
           {static_cast<int>(row),
            std::copysign(1., matrix.diagonal(static_cast<int>(row) / block_size, static_cast<int>(row) % block_size))});
   update_ghost_values(distribution, scaling, block_size);
-  if (std::find(kinds.begin(), kinds.end(), RowKind::without_diagonal) != kinds.end())
+  if (std::any_of(kinds.begin(), kinds.end(),
+                  [](RowKind kind) { return kind == RowKind::without_diagonal || kind == RowKind::negative; }))
     scale_by_largest(matrix, kinds, scaling);
   update_ghost_values(distribution, scaling, block_size);
   scale_rows_and_columns(matrix, scaling);

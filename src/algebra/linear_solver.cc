@@ -212,6 +212,7 @@ struct LinearSolver::Impl
   int                                solves_since_escalation = 0;
   std::unique_ptr<Factorisation>     factors; ///< of factors_stage
   std::size_t                        factors_stage = 0;
+  std::optional<Equilibration>       equilibration;        ///< of the last matrix
   std::shared_ptr<const SparseGraph> factors_graph;        ///< the matrix they belong to had this graph
   int                                fresh_iterations = 0; ///< of the solve they were made for
   bool                               keep_factors     = false;
@@ -385,6 +386,7 @@ void LinearSolver::forget()
 {
   impl_->factors.reset();
   impl_->factors_graph.reset();
+  impl_->equilibration.reset();
   impl_->keep_factors            = false;
   impl_->first_stage             = 0;
   impl_->solves_since_escalation = 0;
@@ -395,7 +397,10 @@ SolveReport LinearSolver::solve(Matrix &matrix, const Vector &rhs, Vector &solut
   return solve(matrix, std::span(&rhs, 1), std::span(&solution, 1));
 }
 
-SolveReport LinearSolver::solve(Matrix &matrix, std::span<const Vector> rhs, std::span<Vector> solutions)
+namespace
+{
+
+void check_sizes(const Matrix &matrix, std::span<const Vector> rhs, std::span<Vector> solutions)
 {
   if (rhs.size() != solutions.size())
     throw DimensionMismatch("linear solver: " + std::to_string(rhs.size()) + " right-hand sides and " +
@@ -408,16 +413,36 @@ SolveReport LinearSolver::solve(Matrix &matrix, std::span<const Vector> rhs, std
   };
   std::for_each(rhs.begin(), rhs.end(), check_size);
   std::for_each(solutions.begin(), solutions.end(), check_size);
+}
 
+} // namespace
+
+SolveReport LinearSolver::solve(Matrix &matrix, std::span<const Vector> rhs, std::span<Vector> solutions)
+{
+  check_sizes(matrix, rhs, solutions);
   SolveReport report;
-  const auto  equilibration = [&] {
+  {
     const Stopwatch stopwatch(report.setup_seconds);
     std::for_each(rhs.begin(), rhs.end(), check_finite);
-    return equilibrate(matrix);
-  }();
+    impl_->equilibration = equilibrate(matrix);
+  }
+  impl_->own_factors = false;
+  return solve_equilibrated(matrix, rhs, solutions, std::move(report));
+}
 
-  auto &self       = *impl_;
-  self.own_factors = false;
+SolveReport LinearSolver::solve_again(const Matrix &matrix, const Vector &rhs, Vector &solution)
+{
+  if (!impl_->equilibration || impl_->factors_graph != matrix.shared_graph())
+    throw Error("linear solver: solve_again without a solve of this matrix before");
+  check_sizes(matrix, std::span(&rhs, 1), std::span(&solution, 1));
+  check_finite(rhs);
+  return solve_equilibrated(matrix, std::span(&rhs, 1), std::span(&solution, 1), {});
+}
+
+SolveReport LinearSolver::solve_equilibrated(const Matrix &matrix, std::span<const Vector> rhs,
+                                             std::span<Vector> solutions, SolveReport report)
+{
+  auto &self = *impl_;
   if (self.first_stage > 0 && ++self.solves_since_escalation >= self.settings.retry_interval)
     {
       self.solves_since_escalation = 0;
@@ -426,14 +451,14 @@ SolveReport LinearSolver::solve(Matrix &matrix, std::span<const Vector> rhs, std
   const auto begun = self.first_stage;
   for (std::size_t k = 0; k < rhs.size(); ++k)
     {
-      Progress   progress(matrix, equilibration, rhs[k]);
+      Progress   progress(matrix, *self.equilibration, rhs[k]);
       const auto history = self.climb(matrix, progress, report);
       if (!history.empty())
         report.message += (report.message.empty() ? "" : "; ") +
                           (rhs.size() > 1 ? "right-hand side " + std::to_string(k) + ": " : "") + history;
       report.relative_residual = std::max(report.relative_residual, progress.relative_residual());
       for (std::size_t i = 0; i < solutions[k].local().size(); ++i)
-        solutions[k].local()[i] = equilibration.scaling[i] * progress.solution()[i];
+        solutions[k].local()[i] = self.equilibration->scaling[i] * progress.solution()[i];
     }
   if (self.first_stage > begun)
     {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -23,6 +24,25 @@ int n_threads(int n_rows)
   return std::clamp(n_rows / rows_of_a_thread, 1, omp_get_max_threads());
 }
 
+/// Marks the block rows of an equilibrated matrix in which a diagonal is next to nothing, shape=(n_rows). Rows of other
+/// ranks, which come behind the owned ones, are not marked.
+std::vector<char> rows_of_multipliers(const Matrix &matrix, int n_rows)
+{
+  constexpr double  small = 1e-2;
+  std::vector<char> result(n_rows, 0);
+  for (int A = 0; A < matrix.graph().n_rows(); ++A)
+    for (int c = 0; c < matrix.block_size(); ++c)
+      {
+        const auto length  = static_cast<std::size_t>(matrix.row_length(A));
+        double     largest = 0.;
+        for (const double value : matrix.values().subspan(matrix.row_start(A) + c * length, length))
+          largest = std::max(largest, std::abs(value));
+        if (std::abs(matrix.diagonal(A, c)) < small * largest)
+          result[A] = 1;
+      }
+  return result;
+}
+
 class PointBlockIlu final : public Factorisation
 {
 public:
@@ -40,8 +60,9 @@ public:
         if (overlapping)
           ghost_rows_.emplace(distribution, matrix.graph());
         collectively(distribution.comm(), [&] {
-          factors_.emplace(overlapping ? ghost_rows_->extended_graph() : matrix.graph(), matrix.block_size(),
-                           fill_level_, n_threads(distribution.n_local()));
+          const auto &graph = overlapping ? ghost_rows_->extended_graph() : matrix.graph();
+          factors_.emplace(graph, matrix.block_size(), fill_level_, n_threads(distribution.n_local()),
+                           rows_of_multipliers(matrix, graph.n_rows()));
         });
         graph_ = matrix.shared_graph();
       }

@@ -37,7 +37,7 @@ endfunction()
 
 sherd_room(base PRIVATE sherd_trilinos sherd_yaml sherd_muparser)
 sherd_room(spline ROOMS base)
-sherd_room(geometry ROOMS base spline)
+sherd_room(geometry ROOMS base spline PRIVATE pugixml::pugixml)
 sherd_room(kinematics ROOMS base)
 sherd_room(material ROOMS base kinematics)
 sherd_room(fracture ROOMS base)

@@ -9,6 +9,7 @@ namespace sherd
   template class Surface<degree, spacedim>;                                                                            \
   template std::vector<int>                  elements_along(const Surface<degree, spacedim> &, const Edge &);          \
   template std::vector<int>                  points_along(const Surface<degree, spacedim> &, const Edge &);            \
+  template std::vector<Interface>            find_interfaces(const std::vector<Patch<degree, spacedim>> &);            \
   template ElementGeometry<degree, spacedim> element_geometry(const Surface<degree, spacedim> &, int);                 \
   template SurfacePlace                      closest_place(const Surface<degree, spacedim> &, const Point<spacedim> &);
 SHERD_INSTANTIATE(2, 2)

@@ -3,6 +3,16 @@
 namespace sherd
 {
 
+namespace
+{
+
+bool is_near(const Eigen::Vector3d &X, const std::vector<Eigen::Vector3d> &points, double distance)
+{
+  return std::any_of(points.begin(), points.end(), [&](const auto &Y) { return (X - Y).norm() <= distance; });
+}
+
+} // namespace
+
 std::vector<Eigen::Vector3d> CrackTracker::branch_points() const
 {
   std::vector<Eigen::Vector3d> result;
@@ -13,14 +23,38 @@ std::vector<Eigen::Vector3d> CrackTracker::branch_points() const
 
 std::vector<int> CrackTracker::ends_inside() const
 {
-  const double     margin = 2. * options_.length_scale;
   std::vector<int> result;
   for (std::size_t n = 0; n < cracks_.nodes.size(); ++n)
-    if (cracks_.nodes[n].degree == 1 && std::none_of(body_edge_.begin(), body_edge_.end(), [&](const auto &X) {
-          return (X - cracks_.nodes[n].point.X).norm() <= margin;
-        }))
+    if (cracks_.nodes[n].degree == 1 && !is_near(cracks_.nodes[n].point.X, body_edge_, 2. * options_.length_scale))
       result.push_back(static_cast<int>(n));
   return result;
+}
+
+void CrackTracker::join(const std::vector<int> &patch_of_arm, const std::vector<char> &self_joined,
+                        const std::vector<Eigen::Vector3d> &broken)
+{
+  if (broken.empty())
+    return;
+  const double        l0        = options_.length_scale;
+  const auto          crossings = connected_parts(broken, .5 * l0);
+  std::vector<CutEnd> ends;
+  for (std::size_t a = 0; a < cracks_.arms.size(); ++a)
+    for (const int node : cracks_.arms[a].nodes)
+      if (node >= 0 && cracks_.nodes[node].degree == 1)
+        {
+          const auto &X        = cracks_.nodes[node].point.X;
+          double      distance = l0;
+          int         crossing = -1;
+          for (std::size_t k = 0; k < broken.size(); ++k)
+            if (const double d = (X - broken[k]).norm(); d < distance)
+              {
+                distance = d;
+                crossing = crossings[k];
+              }
+          if (crossing >= 0)
+            ends.push_back({node, patch_of_arm[a], crossing});
+        }
+  join_cracks(cracks_, patch_of_arm, ends, self_joined, {4. * l0, 2. * l0});
 }
 
 } // namespace sherd

@@ -206,6 +206,8 @@ void FieldsFile::append(const std::vector<PatchArrays> &patches, double time, co
             write_rows(patch, "weights", patches[p].weights);
             write_rows(patch, "control_points", patches[p].control_points, {dim});
             write_rows(patch, "elements", patches[p].elements, {4});
+            write_array(patch, "points", H5T_STD_I64LE, H5T_NATIVE_INT, patches[p].points.data(),
+                        {patches[p].points.size()}, Compression::usual);
           }
       }
     const Handle frame = create_group(file, "frames/" + numbered(n_frames_));

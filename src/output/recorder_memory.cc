@@ -14,6 +14,7 @@ void exchange(Archive archive, Energies &energies)
   archive("passive", energies.passive);
   archive("kinetic", energies.kinetic);
   archive("fracture", energies.fracture);
+  archive("constraint", energies.constraint);
 }
 
 template <class Archive>

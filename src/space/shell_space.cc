@@ -14,8 +14,8 @@ namespace sherd
 namespace
 {
 
-/// Elements of each control point, in compressed rows.
-SparseGraph elements_of_points(const SpaceTopology &topology)
+/// Cells of each point, in compressed rows.
+SparseGraph cells_of_points(const SpaceTopology &topology)
 {
   SparseGraph graph;
   graph.offsets.assign(topology.n_points + 1, 0);
@@ -24,23 +24,22 @@ SparseGraph elements_of_points(const SpaceTopology &topology)
   std::partial_sum(graph.offsets.begin(), graph.offsets.end(), graph.offsets.begin());
   graph.columns.resize(topology.points.size());
   std::vector<int> next(graph.offsets.begin(), graph.offsets.end() - 1);
-  const int        n_elements = static_cast<int>(topology.offsets.size()) - 1;
-  for (int e = 0; e < n_elements; ++e)
-    for (int k = topology.offsets[e]; k < topology.offsets[e + 1]; ++k)
-      graph.columns[next[topology.points[k]]++] = e;
+  for (int cell = 0; cell < topology.n_cells(); ++cell)
+    for (int k = topology.offsets[cell]; k < topology.offsets[cell + 1]; ++k)
+      graph.columns[next[topology.points[k]]++] = cell;
   return graph;
 }
 
-/// Graph of the control points: neighbours share an element; every point is its own neighbour.
-SparseGraph graph_of_points(const SpaceTopology &topology, const SparseGraph &elements)
+/// Graph of the points: neighbours share a cell; every point is its own neighbour.
+SparseGraph graph_of_points(const SpaceTopology &topology, const SparseGraph &cells)
 {
   const int        n = topology.n_points;
   std::vector<int> mark(n, -1), offsets(1, 0), neighbours;
   neighbours.reserve(3 * topology.points.size());
   for (int i = 0; i < n; ++i)
     {
-      for (const int e : elements.row(i))
-        for (int k = topology.offsets[e]; k < topology.offsets[e + 1]; ++k)
+      for (const int cell : cells.row(i))
+        for (int k = topology.offsets[cell]; k < topology.offsets[cell + 1]; ++k)
           if (const int j = topology.points[k]; mark[j] != i)
             {
               mark[j] = i;
@@ -60,19 +59,35 @@ SparseGraph graph_of_points(const SpaceTopology &topology, const SparseGraph &el
   return graph;
 }
 
+/// The part of a graph between its first @p n vertices.
+SparseGraph leading(const SparseGraph &graph, int n)
+{
+  if (n == graph.n_rows())
+    return graph;
+  SparseGraph result;
+  for (int i = 0; i < n; ++i)
+    {
+      for (const int j : graph.row(i))
+        if (j < n)
+          result.columns.push_back(j);
+      result.offsets.push_back(static_cast<int>(result.columns.size()));
+    }
+  return result;
+}
+
 /// What each control point costs its rank in a Newton iteration, in tenths of a microsecond: its share of the elements
 /// on which it acts, and the blocks of its row, to be factored and solved with. Measured in the plane at degree 2, with
-/// point-block ILU(1); other elements and blocks are dearer, both.
-std::vector<int> costs_of_points(const SpaceTopology &topology, const SparseGraph &elements, const SparseGraph &graph)
+/// point-block ILU(1); other elements and blocks are dearer, both. A piece of an interface counts like an element.
+std::vector<int> costs_of_points(const SpaceTopology &topology, const SparseGraph &cells, const SparseGraph &graph)
 {
   constexpr double element = 80.;
   constexpr int    block   = 3;
-  std::vector<int> costs(topology.n_points);
-  for (int i = 0; i < topology.n_points; ++i)
+  std::vector<int> costs(topology.n_control_points());
+  for (int i = 0; i < topology.n_control_points(); ++i)
     {
       double share = 0.;
-      for (const int e : elements.row(i))
-        share += 1. / (topology.offsets[e + 1] - topology.offsets[e]);
+      for (const int cell : cells.row(i))
+        share += 1. / (topology.offsets[cell + 1] - topology.offsets[cell]);
       costs[i] = static_cast<int>(std::lround(element * share)) + block * static_cast<int>(graph.row(i).size());
     }
   return costs;
@@ -125,24 +140,73 @@ SparseGraph local_graph(const SparseGraph &graph, const SpaceDistribution &space
   return result;
 }
 
-/// Sorts elements by their first local control point, those with the same one by their number.
-void sort_elements(const SpaceTopology &topology, SpaceDistribution &space)
+/// Sorts cells by their first local point, those with the same one by their number.
+void sort_cells(const SpaceTopology &topology, const SpaceDistribution &space, std::vector<int> &cells)
 {
   std::vector<int> first, offsets(space.owned.size() + space.ghosts.size() + 1, 0);
-  first.reserve(space.elements.size());
-  for (const int e : space.elements)
+  first.reserve(cells.size());
+  for (const int cell : cells)
     {
       int smallest = topology.n_points;
-      for (int k = topology.offsets[e]; k < topology.offsets[e + 1]; ++k)
+      for (int k = topology.offsets[cell]; k < topology.offsets[cell + 1]; ++k)
         smallest = std::min(smallest, space.local[topology.points[k]]);
       first.push_back(smallest);
       ++offsets[smallest + 1];
     }
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  std::vector<int> sorted(space.elements.size());
+  std::vector<int> sorted(cells.size());
   for (std::size_t k = 0; k < first.size(); ++k)
-    sorted[offsets[first[k]]++] = space.elements[k];
-  space.elements = std::move(sorted);
+    sorted[offsets[first[k]]++] = cells[k];
+  cells = std::move(sorted);
+}
+
+/// Rank of every multiplier: the one that owns most of its control points, of several the first.
+void assign_multipliers(const SpaceTopology &topology, int n_ranks, std::vector<int> &owner)
+{
+  owner.resize(topology.n_points);
+  std::vector<int> count(n_ranks);
+  for (int k = 0; k < topology.n_multipliers; ++k)
+    {
+      const int cell = topology.n_elements() + k;
+      std::fill(count.begin(), count.end(), 0);
+      for (int l = topology.offsets[cell]; l < topology.offsets[cell + 1]; ++l)
+        if (topology.points[l] < topology.n_control_points())
+          ++count[owner[topology.points[l]]];
+      owner[topology.n_control_points() + k] =
+          static_cast<int>(std::max_element(count.begin(), count.end()) - count.begin());
+    }
+}
+
+/// The order of the owned points: control points such that incomplete factors stay small, each multiplier behind the
+/// last of its neighbours, so that these are eliminated before its own diagonal, which is zero, is divided by.
+std::vector<std::int64_t> order_owned(const SpaceTopology &topology, const SparseGraph &graph,
+                                      const std::vector<std::int64_t> &owned)
+{
+  const int                 n_control  = topology.n_control_points();
+  const auto                multiplier = std::lower_bound(owned.begin(), owned.end(), n_control);
+  std::vector<std::int64_t> control(owned.begin(), multiplier), ordered;
+  std::vector<int>          place(topology.n_points, -1);
+  for (std::size_t i = 0; i < control.size(); ++i)
+    place[control[i]] = static_cast<int>(i);
+  const auto order = reverse_cuthill_mckee(restricted(graph, control, place));
+  for (std::size_t i = 0; i < order.size(); ++i)
+    place[control[order[i]]] = static_cast<int>(i);
+
+  std::vector<std::vector<std::int64_t>> behind(control.size() + 1); // entry 0: without a neighbour
+  for (auto m = multiplier; m != owned.end(); ++m)
+    {
+      int last = -1;
+      for (const int neighbour : graph.row(static_cast<int>(*m)))
+        last = std::max(last, place[neighbour]);
+      behind[last + 1].push_back(*m);
+    }
+  for (std::size_t i = 0; i <= control.size(); ++i)
+    {
+      if (i > 0)
+        ordered.push_back(control[order[i - 1]]);
+      ordered.insert(ordered.end(), behind[i].begin(), behind[i].end());
+    }
+  return ordered;
 }
 
 } // namespace
@@ -150,47 +214,45 @@ void sort_elements(const SpaceTopology &topology, SpaceDistribution &space)
 SpaceDistribution distribute(const SpaceTopology &topology, int n_ranks, int rank, const Partitioner &partitioner)
 {
   const int        n_points   = topology.n_points;
-  const int        n_elements = static_cast<int>(topology.offsets.size()) - 1;
-  const auto       elements   = elements_of_points(topology);
-  const auto       graph      = graph_of_points(topology, elements);
-  std::vector<int> owner(n_points, 0);
+  const int        n_elements = topology.n_elements();
+  const auto       cells      = cells_of_points(topology);
+  const auto       graph      = graph_of_points(topology, cells);
+  std::vector<int> owner(topology.n_control_points(), 0);
   if (n_ranks > 1)
     {
-      owner = partitioner(graph, costs_of_points(topology, elements, graph), n_ranks);
-      check(owner, n_points, n_ranks);
+      owner =
+          partitioner(leading(graph, topology.n_control_points()), costs_of_points(topology, cells, graph), n_ranks);
+      check(owner, topology.n_control_points(), n_ranks);
     }
+  assign_multipliers(topology, n_ranks, owner);
+  const auto cell_owner = [&](int cell) {
+    return owner[topology.points[(topology.offsets[cell] + topology.offsets[cell + 1]) / 2]];
+  };
 
   SpaceDistribution result;
   result.element_owner.resize(n_elements);
   for (int e = 0; e < n_elements; ++e)
-    result.element_owner[e] = owner[topology.points[(topology.offsets[e] + topology.offsets[e + 1]) / 2]];
+    result.element_owner[e] = cell_owner(e);
 
-  // The owned control points in the order that keeps incomplete factors small.
-  result.local.assign(n_points, -1);
   for (int i = 0; i < n_points; ++i)
     if (owner[i] == rank)
-      {
-        result.local[i] = static_cast<int>(result.owned.size());
-        result.owned.push_back(i);
-      }
-  const auto                order = reverse_cuthill_mckee(restricted(graph, result.owned, result.local));
-  std::vector<std::int64_t> ordered;
-  for (const int i : order)
-    ordered.push_back(result.owned[i]);
-  result.owned = std::move(ordered);
+      result.owned.push_back(i);
+  result.owned = order_owned(topology, graph, result.owned);
+  result.local.assign(n_points, -1);
   for (std::size_t i = 0; i < result.owned.size(); ++i)
     result.local[result.owned[i]] = static_cast<int>(i);
 
-  std::vector<char> active(n_elements, 0);
+  std::vector<char> active(topology.n_cells(), 0);
   for (const auto point : result.owned)
-    for (const int e : elements.row(static_cast<int>(point)))
-      active[e] = 1;
+    for (const int cell : cells.row(static_cast<int>(point)))
+      active[cell] = 1;
   std::vector<char> ghost(n_points, 0);
-  for (int e = 0; e < n_elements; ++e)
-    if (active[e])
+  std::vector<int>  active_pieces; // as cells
+  for (int cell = 0; cell < topology.n_cells(); ++cell)
+    if (active[cell])
       {
-        result.elements.push_back(e);
-        for (int k = topology.offsets[e]; k < topology.offsets[e + 1]; ++k)
+        (cell < n_elements ? result.elements : active_pieces).push_back(cell);
+        for (int k = topology.offsets[cell]; k < topology.offsets[cell + 1]; ++k)
           if (owner[topology.points[k]] != rank)
             ghost[topology.points[k]] = 1;
       }
@@ -201,14 +263,25 @@ SpaceDistribution distribute(const SpaceTopology &topology, int n_ranks, int ran
         result.ghosts.push_back(i);
       }
 
-  sort_elements(topology, result);
+  sort_cells(topology, result, result.elements);
+  sort_cells(topology, result, active_pieces);
+  const auto add_points = [&](int cell, std::vector<int> &points, std::vector<int> &offsets) {
+    for (int k = topology.offsets[cell]; k < topology.offsets[cell + 1]; ++k)
+      points.push_back(result.local[topology.points[k]]);
+    offsets.push_back(static_cast<int>(points.size()));
+  };
   result.element_offsets.assign(1, 0);
   for (const int e : result.elements)
     {
       result.owns.push_back(result.element_owner[e] == rank);
-      for (int k = topology.offsets[e]; k < topology.offsets[e + 1]; ++k)
-        result.element_points.push_back(result.local[topology.points[k]]);
-      result.element_offsets.push_back(static_cast<int>(result.element_points.size()));
+      add_points(e, result.element_points, result.element_offsets);
+    }
+  result.interface_offsets.assign(1, 0);
+  for (const int cell : active_pieces)
+    {
+      result.interfaces.push_back(cell - n_elements);
+      result.owns_interface.push_back(cell_owner(cell) == rank);
+      add_points(cell, result.interface_points, result.interface_offsets);
     }
 
   result.graph = local_graph(graph, result);

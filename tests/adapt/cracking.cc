@@ -119,13 +119,13 @@ TEST_CASE("Refinement at a frozen displacement keeps the fracture energy")
   // Once for a mesh that has just what the crack needs, once with everything refined.
   CrackingPlate body(MPI_COMM_WORLD, {.target = .5});
   body.prepare();
-  const auto before = body.energies();
-  auto       global = gather(body.state, body.space);
-  const auto target = span_target(body.plate, .5);
-  for (auto marked = coarse_points(body.plate, target); !marked.empty(); marked = coarse_points(body.plate, target))
+  const auto before  = body.energies();
+  auto       global  = gather(body.state, body.space);
+  const auto targets = span_targets(body.plate, .5);
+  for (auto marked = coarse_points(body.plate, targets); !marked.empty(); marked = coarse_points(body.plate, targets))
     {
       const auto boxes = element_boxes(body.plate);
-      global           = transfer(global, boxes, body.plate.refine(marked, target), body.plate);
+      global           = transfer(global, boxes, body.plate.refine_to(marked, targets), body.plate);
     }
   body.space.rebuild();
   body.state = distribute(global, body.space);

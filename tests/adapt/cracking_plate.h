@@ -6,6 +6,7 @@
 #include <sherd/fracture/degradation/cubic.h>
 #include <sherd/geometry/shapes.h>
 #include <sherd/material/split/surface_stretch.h>
+#include <sherd/solve/instances.h>
 #include <sherd/time/generalized_alpha.h>
 
 namespace sherd::test
@@ -48,9 +49,18 @@ struct CrackingPlate
   CrackingPlate(MPI_Comm comm, const RefinementSettings &refinement, double speed = .2,
                 const NewtonSettings &settings = {}, std::array<int, 2> elements = {5, 12},
                 Partitioner partitioner = partition)
+      : CrackingPlate(comm, shapes::plate<2, 2>({10., 24.}, elements), continuity::Penalty(), refinement, speed,
+                      settings, std::move(partitioner))
+  {
+  }
+
+  /// The plate in another form, of several patches.
+  CrackingPlate(MPI_Comm comm, Surface<2, 2> surface, const Continuity &continuity,
+                const RefinementSettings &refinement, double speed = .2, const NewtonSettings &settings = {},
+                Partitioner partitioner = partition)
       : env(comm),
-        plate(shapes::plate<2, 2>({10., 24.}, elements)),
-        space(env, plate, std::move(partitioner)),
+        plate(std::move(surface)),
+        space(env, plate, continuity, std::move(partitioner)),
         supports(pull(speed)),
         state(space),
         solver(model, space, supports, loads, GeneralizedAlpha(.5), settings),

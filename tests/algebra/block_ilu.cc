@@ -262,6 +262,47 @@ TEST_CASE("Separators are the first rows of the chunks behind the first, as many
   CHECK(factors.order()[3] == 2);
 }
 
+// A chain of unknowns, between which multipliers without a diagonal stand behind the second of their two neighbours.
+TEST_CASE("Rows without a diagonal are eliminated behind their neighbours, in descending interiors too")
+{
+  const int           n = 60; // unknowns; rows 3 k + 2 are multipliers of the two before
+  SparseGraph         graph;
+  std::vector<double> values;
+  std::vector<char>   deferred;
+  const auto          is_multiplier = [](int i) { return i % 3 == 2; };
+  for (int i = 0; i < n; ++i)
+    {
+      for (int j = std::max(0, i - 2); j <= std::min(n - 1, i + 2); ++j)
+        {
+          const bool same_group = i / 3 == j / 3;
+          if (i != j && !same_group && (is_multiplier(i) || is_multiplier(j)))
+            continue;
+          graph.columns.push_back(j);
+          const bool constraint = is_multiplier(i) || is_multiplier(j);
+          values.push_back(i == j       ? (is_multiplier(i) ? 0. : 4.)
+                           : constraint ? (std::min(i, j) % 3 == 0 ? 1. : -1.)
+                                        : 1.);
+        }
+      graph.offsets.push_back(static_cast<int>(graph.columns.size()));
+      deferred.push_back(is_multiplier(i));
+    }
+  const auto A = dense(graph, 1, values);
+  for (const int n_threads : {1, 2, 3, 4})
+    {
+      BlockIlu factors(graph, 1, n, n_threads, deferred);
+      factors.factor(graph, values);
+      CHECK((product(factors) - A).norm() < 10. * float_rounding * A.norm());
+      std::vector<int> places(n);
+      for (int k = 0; k < n; ++k)
+        places[factors.order()[k]] = k;
+      for (int i = 2; i < n; i += 3)
+        CHECK(places[i] > std::min(places[i - 1], places[i - 2])); // the other one may be in a later separator
+    }
+  BlockIlu unaware(graph, 1, n, 2);
+  CHECK_THROWS_AS(unaware.factor(graph, values), NoConvergence);
+  CHECK_THROWS_AS(BlockIlu(graph, 1, 0, 2, std::vector<char>(3)), DimensionMismatch);
+}
+
 TEST_CASE("Factors do not depend on how many threads really run, nor on the run")
 {
   const int  block_size = 3, n_threads = 4;

@@ -143,6 +143,32 @@ TEST_CASE("A solver is used again with new values and after the mesh has changed
     }
 }
 
+TEST_CASE("A matrix that stays is solved with again")
+{
+  for (const auto preconditioner : {Preconditioner::point_block_ilu, Preconditioner::mumps})
+    {
+      LinearSolver      solver({.preconditioner = preconditioner, .tolerance = 1e-10});
+      const ModelSystem system{12};
+      const auto        distribution = system.distribute(MPI_COMM_WORLD);
+      auto              A            = system.matrix(distribution);
+      const auto        first        = random_vector(distribution, 3, system.displacement);
+      Vector            b(distribution, 3), b2(distribution, 3), x(distribution, 3);
+      CHECK_THROWS_AS(solver.solve_again(A, b, x), Error);
+      A.multiply(first, b);
+      auto second = first;
+      for (std::size_t i = 0; i < second.local().size(); ++i)
+        second.local()[i] *= i % 2 ? -3. : .5;
+      second.update_ghosts();
+      A.multiply(second, b2);
+      solver.solve(A, b, x); // leaves A equilibrated
+      const auto report = solver.solve_again(A, b2, x);
+      CHECK(distance(x, second, system.displacement) < 1e-8);
+      CHECK(report.iterations > 0);
+      solver.forget();
+      CHECK_THROWS_AS(solver.solve_again(A, b, x), Error);
+    }
+}
+
 TEST_CASE("Unknowns with a row of the identity are exact")
 {
   const auto        preconditioner = GENERATE(Preconditioner::point_block_ilu, Preconditioner::mumps);

@@ -10,6 +10,7 @@
 #include <sherd/fracture/degradation/cubic.h>
 #include <sherd/material/canham.h>
 #include <sherd/material/split/surface_stretch.h>
+#include <sherd/solve/instances.h>
 
 namespace sherd::test
 {

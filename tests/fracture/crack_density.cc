@@ -1,17 +1,22 @@
 // label: verification
 #include <catch2/catch.hpp>
 
+#include <sherd/fracture/crack_density/at1.h>
 #include <sherd/fracture/crack_density/fourth_order.h>
 #include <sherd/fracture/crack_density/second_order.h>
+#include <sherd/base/exceptions.h>
+#include <sherd/fracture/degradation/quadratic.h>
+#include <sherd/fracture/homogeneous.h>
 #include <sherd/verify/crack_density.h>
 
 #include "fracture/phase_field_1d.h"
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 using namespace sherd;
-using crack_density::FourthOrder, crack_density::SecondOrder;
+using crack_density::AT1, crack_density::FourthOrder, crack_density::SecondOrder;
 using namespace phase_field_1d;
 
 namespace
@@ -70,12 +75,62 @@ void check_column(const int degree, const std::array<double, 5> &expected, const
 }
 } // namespace
 
-TEMPLATE_TEST_CASE("crack density: the optimal profile costs exactly Gc", "", FourthOrder, SecondOrder)
+TEMPLATE_TEST_CASE("crack density: the optimal profile costs exactly Gc", "", FourthOrder, SecondOrder, AT1)
 {
   const auto report = verify::crack_density(TestType{});
 
   INFO(report);
   CHECK(report.passed());
+}
+
+TEST_CASE("crack density: AT1 costs Gc for any width of its bound, and tends to theory C.1")
+{
+  for (const double width : {.1, .03, 1e-3, 1e-4})
+    {
+      const auto report = verify::crack_density(AT1(width));
+      INFO("width " << width << '\n' << report);
+      CHECK(report.passed());
+    }
+  const AT1 sharp(1e-8);
+  CHECK(sharp.c1(l0) == Approx(1.5 * l0 * l0).epsilon(1e-7));
+  CHECK(sharp.c2(l0) == 0.);
+  for (const double r : {0., .3, 1., 1.9})
+    CHECK(sharp.profile(r) == Approx(r - .25 * r * r).epsilon(1e-7));
+  CHECK(sharp.profile(2.1) == Approx(1.).epsilon(1e-8));
+  for (const double d : {1e-3, .1, 1.})
+    CHECK(sharp.local(1. - d) == Approx(1.5 * d).epsilon(1e-5));
+  for (const double bad : {0., -1e-3, .11, std::numeric_limits<double>::quiet_NaN()})
+    CHECK_THROWS_AS(AT1(bad), InvalidParameter);
+}
+
+TEST_CASE("crack density: AT1 keeps its bound without an active set, and Newton's method converges in a few iterations")
+{
+  // A strip under a driving energy that breaks it in the middle, from the intact state.
+  const degradation::Quadratic g;
+  constexpr double             Gc = .7;
+  for (const double width : {1e-2, 1e-3})
+    {
+      const AT1         density(width);
+      const SplineSpace space(2, -4. * l0, 4.05 * l0, 64);
+      const double      H      = homogeneous_history(g, density, 1e-3, Gc, l0);
+      const auto        strip  = [&](const double x) { return std::abs(x) < .26 * l0 ? H : 0.; };
+      const auto        intact = [](const double) { return 1.; };
+
+      const Solution found = solve(space, density, g, Gc, l0, strip, intact);
+
+      INFO(width << ": " << found.iterations << " iterations, phi " << found.min_phi << " to " << found.max_phi
+                 << ", energy " << found.energy);
+      CHECK(found.iterations < (width > 5e-3 ? 12 : 22));
+      CHECK(found.max_phi < 1. + 2. * width);
+      CHECK(found.min_phi > -.02);
+      CHECK(found.energy > 1.); // the strip is broken all across: at most 3/8 of its width more
+      CHECK(found.energy < 1. + 3. / 8. * .52);
+
+      // Below the elastic limit nothing is damaged by more than the width.
+      const auto   below   = [&](const double) { return .9 * 3. * Gc / (16. * l0); };
+      const double elastic = solve(space, density, g, Gc, l0, below, intact).min_phi;
+      CHECK(elastic > 1. - width);
+    }
 }
 
 TEST_CASE("crack density: coefficients of theory C.1")

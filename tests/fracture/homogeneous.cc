@@ -2,8 +2,11 @@
 #include <catch2/catch.hpp>
 
 #include <sherd/fracture/branch.h>
+#include <sherd/fracture/crack_density/at1.h>
+#include <sherd/fracture/crack_density/fourth_order.h>
 #include <sherd/fracture/degradation/cubic.h>
 #include <sherd/fracture/degradation/quadratic.h>
+#include <sherd/fracture/degradation/quartic.h>
 #include <sherd/fracture/homogeneous.h>
 
 #include <algorithm>
@@ -12,7 +15,8 @@
 #include <limits>
 
 using namespace sherd;
-using degradation::Cubic, degradation::Quadratic;
+using crack_density::AT1, crack_density::FourthOrder;
+using degradation::Cubic, degradation::Quadratic, degradation::Quartic;
 
 namespace
 {
@@ -24,17 +28,17 @@ struct Peak
 };
 
 /// Stress and strain of the homogeneous equilibrium at phase phi.
-template <class Function>
-Peak equilibrium(const Function &g, const double phi)
+template <class Function, class Density = FourthOrder>
+Peak equilibrium(const Function &g, const double phi, const Density &density = {})
 {
-  const double strain = std::sqrt(2. * homogeneous_history(g, phi, Gc, l0) / stiffness);
+  const double strain = std::sqrt(2. * homogeneous_history(g, density, phi, Gc, l0) / stiffness);
   return {g.value(phi) * stiffness * strain / std::sqrt(stiffness * Gc / l0), strain / std::sqrt(Gc / (l0 * stiffness)),
           phi};
 }
 
 /// Largest stress along the path from intact to broken: a scan, refined three times around its best point.
-template <class Function>
-Peak peak(const Function &g)
+template <class Function, class Density = FourthOrder>
+Peak peak(const Function &g, const Density &density = {})
 {
   double low = 1e-3, high = 1. - 1e-9;
   Peak   best{0., 0., 0.};
@@ -42,7 +46,7 @@ Peak peak(const Function &g)
     {
       const double step = (high - low) / 1000;
       for (int i = 0; i <= 1000; ++i)
-        if (const auto state = equilibrium(g, low + i * step); state.stress > best.stress)
+        if (const auto state = equilibrium(g, low + i * step, density); state.stress > best.stress)
           best = state;
       low  = std::max(1e-3, best.phi - 2. * step);
       high = std::min(1. - 1e-9, best.phi + 2. * step);
@@ -133,6 +137,41 @@ TEST_CASE("homogeneous state: peak stresses of the table in theory C.3")
   check(Cubic(.1), .3991876, .4328640, .84248, 6e-6);
   check(Cubic(1.), .3069193, .4319023, .75572, 6e-6);
   check(Cubic(1e-9), 1.2 * std::pow(.9, 1.5) / std::sqrt(6.), 1. / std::sqrt(5.4), .9, 1e-6);
+}
+
+TEST_CASE("homogeneous state: peak stress of quartic degradation in theory C.3")
+{
+  const Peak found = peak(Quartic(1e-9));
+  INFO(found.stress << ' ' << found.strain << ' ' << found.phi);
+  CHECK(std::abs(found.stress - .3041187) < 5.1e-8);
+  CHECK(std::abs(found.strain - .3247595) < 1.5e-7);
+  CHECK(std::abs(found.phi - 8. / 9.) < 1e-6);
+  // Onset at Gc / (24 l0), then phi = sqrt(Gc / (24 l0 Psi)).
+  const double onset = branch::onset(Quartic(1e-9), Gc, l0);
+  CHECK(onset == Approx(Gc / (24. * l0)).epsilon(1e-8));
+  for (const double load : {1.2, 2., 20.})
+    CHECK(homogeneous_phase(Quartic(1e-9), load * onset, Gc, l0) == Approx(1. / std::sqrt(load)).epsilon(1e-7));
+}
+
+TEST_CASE("homogeneous state: AT1 is elastic up to its peak, theory C.3")
+{
+  // Up to the width of the bound, within which both stress and strain lie.
+  for (const double width : {1e-2, 1e-3, 1e-5})
+    {
+      const AT1  density(width);
+      const Peak found = peak(Quadratic{}, density);
+      INFO(found.stress << ' ' << found.strain << ' ' << found.phi);
+      CHECK(std::abs(found.stress - std::sqrt(3. / 8)) < 2. * width);
+      CHECK(std::abs(found.strain - std::sqrt(3. / 8)) < width);
+      CHECK(std::abs(found.phi - 1.) < 1.5 * width);
+
+      const double onset = 3. * Gc / (16. * l0);
+      CHECK(homogeneous_phase(Quadratic{}, density, 0., Gc, l0) == 1.);
+      CHECK(homogeneous_phase(Quadratic{}, density, .99 * onset, Gc, l0) >= 1. - width);
+      for (const double load : {1.2, 2., 20.}) // then phi = onset / Psi
+        CHECK(homogeneous_phase(Quadratic{}, density, load * onset, Gc, l0) == Approx(1. / load).epsilon(1e-12));
+      CHECK(std::isinf(branch::onset(Quadratic{}, density, Gc, l0)));
+    }
 }
 
 TEST_CASE("homogeneous state: strain grows all along the path, there is no snap-back")

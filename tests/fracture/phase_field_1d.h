@@ -127,13 +127,14 @@ inline std::vector<QuadraturePoint> quadrature(const SplineSpace &space)
   return points;
 }
 
-/// Matrix of int (u v + c1 u' v' + c2 u'' v'') dx: with u = 1 - phi, energy / Gc = u^T K u / (4 l0).
+/// Matrix of int (local u v + c1 u' v' + c2 u'' v'') dx. For densities of second and fourth order, with local = 1 and
+/// u = 1 - phi, energy / Gc = u^T K u / (4 l0).
 template <sherd::CrackDensity Density>
-Eigen::MatrixXd stiffness(const SplineSpace &space, const Density &density, const double l0)
+Eigen::MatrixXd stiffness(const SplineSpace &space, const Density &density, const double l0, const double local = 1.)
 {
   Eigen::MatrixXd       K      = Eigen::MatrixXd::Zero(space.n_functions(), space.n_functions());
   const int             n      = space.degree() + 1;
-  const Eigen::Vector3d factor = {1., density.c1(l0), density.c2(l0)};
+  const Eigen::Vector3d factor = {local, density.c1(l0), density.c2(l0)};
   for (const auto &q : quadrature(space))
     K.block(q.shape.first, q.shape.first, n, n) += q.weight * q.shape.N.transpose() * factor.asDiagonal() * q.shape.N;
   return K;
@@ -149,9 +150,9 @@ inline double constrained_energy(const Eigen::MatrixXd &K, const Eigen::MatrixXd
 
 struct Solution
 {
-  Eigen::VectorXd coefficients; ///< of phi
-  double          energy;       ///< int Psi_frac dx / Gc
-  double          min_phi;      ///< over the quadrature points
+  Eigen::VectorXd coefficients;     ///< of phi
+  double          energy;           ///< int Psi_frac dx / Gc
+  double          min_phi, max_phi; ///< over the quadrature points
   int             iterations;
 };
 
@@ -161,7 +162,8 @@ Solution solve(const SplineSpace &space, const Density &density, const Function 
                const std::function<double(double)> &history, const std::function<double(double)> &start)
 {
   const auto            points = quadrature(space);
-  const Eigen::MatrixXd K      = Gc / (2. * l0) * stiffness(space, density, l0);
+  const double          local  = Gc / (4. * l0);
+  const Eigen::MatrixXd K      = Gc / (2. * l0) * stiffness(space, density, l0, 0.);
   const int             n      = space.degree() + 1;
 
   // Start values by L2 projection.
@@ -173,7 +175,7 @@ Solution solve(const SplineSpace &space, const Density &density, const Function 
       mass.block(q.shape.first, q.shape.first, n, n) += q.weight * N.transpose() * N;
       load.segment(q.shape.first, n) += q.weight * start(q.x) * N.transpose();
     }
-  Solution result{mass.ldlt().solve(load), 0., 1., 0};
+  Solution result{mass.ldlt().solve(load), 0., 1., 0., 0};
 
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(K.rows());
   for (double change = 1.; change > 1e-11; ++result.iterations)
@@ -186,8 +188,10 @@ Solution solve(const SplineSpace &space, const Density &density, const Function 
         {
           const auto   N   = q.shape.N.row(0);
           const double phi = N.dot(result.coefficients.segment(q.shape.first, n)), H = history(q.x);
-          tangent.block(q.shape.first, q.shape.first, n, n) += q.weight * g.second(phi) * H * N.transpose() * N;
-          residual.segment(q.shape.first, n) += q.weight * g.first(phi) * H * N.transpose();
+          tangent.block(q.shape.first, q.shape.first, n, n) +=
+              q.weight * (g.second(phi) * H + local * density.local_second(phi)) * N.transpose() * N;
+          residual.segment(q.shape.first, n) +=
+              q.weight * (g.first(phi) * H + local * density.local_first(phi)) * N.transpose();
         }
       const Eigen::VectorXd step = tangent.partialPivLu().solve(residual);
       result.coefficients -= step;
@@ -197,7 +201,12 @@ Solution solve(const SplineSpace &space, const Density &density, const Function 
   const Eigen::VectorXd u = ones - result.coefficients;
   result.energy           = u.dot(K * u) / (2. * Gc);
   for (const auto &q : points)
-    result.min_phi = std::min(result.min_phi, q.shape.N.row(0).dot(result.coefficients.segment(q.shape.first, n)));
+    {
+      const double phi = q.shape.N.row(0).dot(result.coefficients.segment(q.shape.first, n));
+      result.min_phi   = std::min(result.min_phi, phi);
+      result.max_phi   = std::max(result.max_phi, phi);
+      result.energy += q.weight * density.local(phi) / (4. * l0);
+    }
   return result;
 }
 

@@ -86,7 +86,7 @@ TEST_CASE("The closest place is found on every patch")
   CHECK(place.v == Approx(1.2).margin(1e-8));
   const auto shape = evaluate(surface, place);
   CHECK(shape.points.size() == 9);
-  CHECK(*std::min_element(shape.points.begin(), shape.points.end()) >= surface.point_offset(1));
+  CHECK(*std::min_element(shape.points.begin(), shape.points.end()) >= surface.point(1, 0));
   CHECK((position(surface, place) - Point<2>(.3, 1.6)).norm() < 1e-8);
 }
 

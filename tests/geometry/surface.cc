@@ -23,8 +23,7 @@ Surface<2, 2> two_patches()
 /// A field's value at the parameters of a patch.
 double field_at(const Surface<2, 2> &surface, int p, const Eigen::VectorXd &values, double u, double v)
 {
-  Patch<2, 1> patch{surface.patch(p).basis,
-                    values.segment(surface.point_offset(p), surface.patch(p).basis.n_functions()),
+  Patch<2, 1> patch{surface.patch(p).basis, values.segment(surface.point(p, 0), surface.patch(p).basis.n_functions()),
                     surface.patch(p).weights};
   return test::position_at(patch, u, v)[0];
 }
@@ -37,7 +36,7 @@ TEST_CASE("Patches are numbered one after the other")
   REQUIRE(surface.n_patches() == 2);
   CHECK(surface.n_control_points() == 4 * 5 + 6 * 4);
   CHECK(surface.n_elements() == 6 + 8);
-  CHECK(surface.point_offset(1) == 20);
+  CHECK(surface.point(1, 0) == 20);
   CHECK(surface.element_offset(1) == 6);
   for (int e = 0; e < surface.n_elements(); ++e)
     {
@@ -114,7 +113,7 @@ TEST_CASE("Refining one patch leaves the other, and moves its numbers")
 
   REQUIRE(surface.n_control_points() > before.n_control_points());
   CHECK(surface.patch(1).control_points == before.patch(1).control_points);
-  CHECK(surface.n_control_points() - surface.point_offset(1) == 24);
+  CHECK(surface.n_control_points() - surface.point(1, 0) == 24);
   CHECK(carried.tail(24) == field.tail(24));
   for (int e = surface.element_offset(1); e < surface.n_elements(); ++e)
     CHECK(result.parent[e] == e - surface.element_offset(1) + before.element_offset(1));

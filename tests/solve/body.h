@@ -9,7 +9,7 @@
 #include <sherd/fracture/pre_crack.h>
 #include <sherd/geometry/shapes.h>
 #include <sherd/material/split/surface_stretch.h>
-#include <sherd/solve/monolithic_solver.h>
+#include <sherd/solve/instances.h>
 #include <sherd/time/generalized_alpha.h>
 
 namespace sherd::test
@@ -88,7 +88,9 @@ struct Body
       for (int q = 0; q < state.n_q; ++q)
         {
           const auto X        = solver.assembler().quadrature_position(e, q);
-          state.history[e][q] = pre_crack.history(X, model.degradation, model.toughness(X));
+          state.history[e][q] = model.irreversibility.initial(
+              pre_crack.history(X, model.degradation, model.crack_density, model.toughness(X)),
+              pre_crack.phase(X, model.crack_density));
         }
     state.previous_phase = state.phase;
   }

@@ -30,10 +30,16 @@ struct KoiterBody
   ControlValues<3>      reference;
 
   KoiterBody(double E, double nu, double thickness, const Surface<degree, 3> &surface_, const Supports &supports_,
-             const Loads<3> &loads_, const StaticSettings &settings = {})
-      : model(make_model(E, nu, thickness)),
+             const Loads<3> &loads_, const StaticSettings &settings = {},
+             const Continuity &continuity = continuity::Penalty())
+      : KoiterBody(make_model(E, nu, thickness), surface_, supports_, loads_, settings, continuity)
+  {
+  }
+  KoiterBody(const Model &model_, const Surface<degree, 3> &surface_, const Supports &supports_, const Loads<3> &loads_,
+             const StaticSettings &settings = {}, const Continuity &continuity = continuity::Penalty())
+      : model(model_),
         surface(surface_),
-        space(env, surface),
+        space(env, surface, continuity),
         supports(supports_),
         loads(loads_),
         state(space),
@@ -47,14 +53,19 @@ struct KoiterBody
   static Model make_model(double E, double nu, double thickness)
   {
     const auto laws = material::koiter_shell(E, nu, thickness);
-    return Model(split::None<material::StVenantKirchhoff, material::Koiter>(laws.membrane, laws.bending),
+    return make_model(laws.membrane, laws.bending);
+  }
+
+  static Model make_model(const material::StVenantKirchhoff &membrane, const material::Koiter &bending)
+  {
+    return Model(split::None<material::StVenantKirchhoff, material::Koiter>(membrane, bending),
                  degradation::Cubic(1e-4), {}, Toughness<3>(1.), 1., 1.);
   }
 
-  /// Displacement of the point with parameters u, v. Collective.
-  Point<3> displacement(const State<degree, 3> &present, double u, double v) const
+  /// Displacement of the point with parameters u, v of a patch. Collective.
+  Point<3> displacement(const State<degree, 3> &present, double u, double v, int patch = 0) const
   {
-    const auto place = evaluate(surface, SurfacePlace{0, u, v});
+    const auto place = evaluate(surface, SurfacePlace{patch, u, v});
     const auto x     = snapshot(present).position;
     Point<3>   sum   = Point<3>::Zero();
     for (std::size_t i = 0; i < place.points.size(); ++i)

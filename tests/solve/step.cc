@@ -240,3 +240,54 @@ TEST_CASE("A step with too few iterations is refused, with the reason")
   CHECK(result.newton == 1);
   CHECK_THAT(result.failure, Catch::Contains("no convergence in 1"));
 }
+
+namespace
+{
+std::int64_t linearisations(PhaseTimers &timers)
+{
+  return timers.statistics(MPI_COMM_WORLD)["assembly"].calls;
+}
+} // namespace
+
+TEST_CASE("Steps that keep a tangent are those of Newton's method, with fewer tangents and the same count")
+{
+  // Rebuilding before each step makes it forget the tangents of others.
+  Body<Glass> keeping(unbreakable.model(), {2., 1.}, {6, 3}, {}, held());
+  Body<Glass> forgetting(unbreakable.model(), {2., 1.}, {6, 3}, {}, held());
+  for (auto *body : {&keeping, &forgetting})
+    {
+      set_velocity(*body, .02);
+      body->solver.set_initial_acceleration(body->state);
+    }
+  int    n_newton = 0;
+  double largest  = 0.;
+  for (int step = 0; step < 12; ++step)
+    {
+      forgetting.solver.rebuild(forgetting.state);
+      const auto a = take(keeping, 1e-3), b = take(forgetting, 1e-3);
+      CHECK(a.newton == b.newton);
+      n_newton += b.newton;
+      const auto x = gather(keeping.state.position), y = gather(forgetting.state.position);
+      largest = std::max(largest, distance(x, y));
+    }
+  // Both leave residuals below the same tolerance, 1e-6 of the inertia forces.
+  CHECK(largest < 1e-6 * .02 * 12e-3 * std::sqrt(48.));
+  CHECK(linearisations(keeping.solver.timers()) <= n_newton / 2 + 1);
+  CHECK(linearisations(forgetting.solver.timers()) >= n_newton);
+}
+
+TEST_CASE("A tangent of other steps or other supports is not used")
+{
+  // The phase is solved for with all displacements fixed, then a step with them free, of another size each time.
+  Torn       body(tight());
+  const auto solve = [&](double dt) {
+    body.solver.equilibrate_phase(body.state);
+    const auto before = linearisations(body.solver.timers());
+    const auto result = body.solver.attempt(body.state, dt);
+    INFO(result.failure);
+    REQUIRE(result.state);
+    CHECK(linearisations(body.solver.timers()) > before);
+  };
+  solve(.01);
+  solve(.005);
+}

@@ -23,7 +23,7 @@ SpaceTopology topology_of(const Surface<2, 2> &surface)
     {
       const auto [p, local] = surface.locate_element(e);
       for (const int i : surface.patch(p).basis.functions_of(local))
-        topology.points.push_back(surface.point_offset(p) + i);
+        topology.points.push_back(surface.point(p, i));
       topology.offsets.push_back(static_cast<int>(topology.points.size()));
     }
   return topology;

@@ -109,7 +109,7 @@ double steepest(const Surface<degree, spacedim> &surface, const std::string &nam
       double     W = 0., dW = 0., c = 0., dc = 0.;
       for (std::size_t i = 0; i < f.size(); ++i)
         {
-          const double w = patch.weights[f[i]], value = values[surface.point_offset(edge.patch) + f[i]];
+          const double w = patch.weights[f[i]], value = values[surface.point(edge.patch, f[i])];
           W += w * v[i].value;
           dW += w * v[i].first[normal];
           c += w * v[i].value * value;

@@ -103,8 +103,8 @@ TEST_CASE("State and history move with their control points and elements when th
   const Environment      env(MPI_COMM_WORLD);
   const int              last   = env.n_ranks() - 1;
   const auto             global = random_state(surface);
-  const ShellSpace<2, 2> first(env, surface), second(env, surface, test::leaving_out(last)),
-      third(env, surface, test::leaving_out(0));
+  const ShellSpace<2, 2> first(env, surface), second(env, surface, continuity::Penalty(), test::leaving_out(last)),
+      third(env, surface, continuity::Penalty(), test::leaving_out(0));
   const auto moved = distribute(gather(distribute(global, first), first), second);
   const auto again = distribute(gather(moved, second), third);
   if (env.n_ranks() > 1)

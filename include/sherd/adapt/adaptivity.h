@@ -50,8 +50,8 @@ private:
   void refine(Solver &solver, SurfaceType &surface, SpaceType &space, StateType &state,
               const Triggers<spacedim> &triggers);
 
-  RefinementSettings settings_;
-  SpanTarget         target_;
+  RefinementSettings      settings_;
+  std::vector<SpanTarget> targets_; ///< by patch
 };
 
 } // namespace sherd

@@ -7,15 +7,14 @@ namespace sherd
 {
 
 template <class Model>
-Adaptivity<Model>::Adaptivity(const SurfaceType &surface, const RefinementSettings &settings)
-    : settings_(settings), target_{{0., 0.}}
+Adaptivity<Model>::Adaptivity(const SurfaceType &surface, const RefinementSettings &settings) : settings_(settings)
 {
   if (!(settings.target > 0.))
     throw InvalidParameter("refinement.target = " + std::to_string(settings.target) +
                            ", expected an element size > 0, at most half the length scale");
   if (!(settings.halo >= 0.))
     throw InvalidParameter("refinement.halo = " + std::to_string(settings.halo) + ", expected a length >= 0");
-  target_ = span_target(surface, settings.target);
+  targets_ = span_targets(surface, settings.target);
 }
 
 template <class Model>
@@ -32,19 +31,20 @@ void Adaptivity<Model>::prepare(Solver &solver, SurfaceType &surface, SpaceType 
         const auto       marking = timers.measure("marking");
         std::vector<int> marked;
         const auto       X = surface.control_points();
-        for (const int point : coarse_points(surface, target_))
+        for (const int point : coarse_points(surface, targets_))
           {
             const Point<spacedim> position = X.row(point).transpose();
             const auto [p, i]              = surface.locate_point(point);
             // Functions so coarse that the crack may run between their control points are marked as well.
             if (pre_crack.phase(position, model.crack_density) < settings_.phase ||
-                pre_crack.distance(position) <= settings_.target * reach(surface.patch(p).basis.function(i), target_))
+                pre_crack.distance(position) <=
+                    settings_.target * reach(surface.patch(p).basis.function(i), targets_[p]))
               marked.push_back(point);
           }
         if (marked.empty())
           break;
         const auto refining = timers.measure("refine");
-        surface.refine(marked, target_);
+        surface.refine_to(marked, targets_);
       }
     space.rebuild();
     state = StateType(space);
@@ -54,14 +54,16 @@ void Adaptivity<Model>::prepare(Solver &solver, SurfaceType &surface, SpaceType 
   const auto timing = timers.measure("initial state");
   const auto X      = surface.control_points();
   for (int a = 0; a < state.distribution->n_local(); ++a)
-    state.phase.local()[a] =
-        pre_crack.phase(Point<spacedim>(X.row(state.distribution->global(a)).transpose()), model.crack_density);
+    if (const auto point = state.distribution->global(a); !space.is_multiplier(point))
+      state.phase.local()[a] = pre_crack.phase(Point<spacedim>(X.row(point).transpose()), model.crack_density);
   int n_cracked = 0;
   for (int e = 0; e < space.n_active_elements(); ++e)
     for (int q = 0; q < state.n_q; ++q)
       {
         const auto position = solver.assembler().quadrature_position(e, q);
-        state.history[e][q] = pre_crack.history(position, model.degradation, model.toughness(position));
+        state.history[e][q] = model.irreversibility.initial(
+            pre_crack.history(position, model.degradation, model.crack_density, model.toughness(position)),
+            pre_crack.phase(position, model.crack_density));
         n_cracked += pre_crack.contains(position);
       }
   MPI_Allreduce(MPI_IN_PLACE, &n_cracked, 1, MPI_INT, MPI_SUM, space.environment().comm());
@@ -82,17 +84,16 @@ void Adaptivity<Model>::refine(Solver &solver, SurfaceType &surface, SpaceType &
   {
     const auto timing = timers.measure("transfer");
     auto       global = gather(state, space);
-    // At least the triggering functions themselves, whatever the rounding of their positions.
-    const double radius = std::max(settings_.halo, .5 * settings_.target);
     for (;;)
       {
         const auto marking = timers.measure("marking");
-        const auto marked  = coarse_points_near(surface, target_, triggers.positions, radius);
+        // At least the triggering functions themselves, whatever the rounding of their positions.
+        const auto marked = coarse_points_near(surface, targets_, triggers, .5 * settings_.target);
         if (marked.empty())
           break;
         const auto refining     = timers.measure("refine");
         const auto boxes        = element_boxes(surface);
-        const auto refinement   = surface.refine(marked, target_);
+        const auto refinement   = surface.refine_to(marked, targets_);
         const auto transferring = timers.measure("transfer");
         global                  = transfer(global, boxes, refinement, surface);
       }
@@ -136,7 +137,7 @@ StepSummary Adaptivity<Model>::advance(Solver &solver, SurfaceType &surface, Spa
 
       const auto triggers = [&] {
         const auto timing = solver.timers().measure("marking");
-        return find_triggers(solver.assembler(), *result.state, target_, settings_);
+        return find_triggers(solver.assembler(), *result.state, targets_, settings_);
       }();
       if (!triggers.empty() && triggers.smallest_phase < settings_.recompute_phase)
         {

@@ -29,6 +29,10 @@ namespace sherd
 /// eliminated and substituted by a thread of its own. So are separators, unless a kept block couples two of them: they
 /// lie as far apart as chunks are long. A sweep over L and U has two points of synchronisation.
 ///
+/// Rows whose diagonal is zero or next to it before the elimination (multipliers) have to stand behind their
+/// neighbours, which give them one. If the constructor is told which they are, they go behind the last of these in
+/// interiors whose rows descend, and to the separator with any of them.
+///
 /// In an order with a small bandwidth (reverse Cuthill-McKee) a separator has about as many rows as the bandwidth. The
 /// factors depend on n_threads, but not on how many threads really run, and not on their timing.
 class BlockIlu
@@ -36,8 +40,10 @@ class BlockIlu
 public:
   /// Symbolic phase. Columns of @p graph from n_rows on (unknowns of other ranks) are left out, missing diagonals are
   /// added. @param block_size 1 to 4. @param fill_level at least 0. @param n_threads at least 1; may exceed the number
-  /// of rows. Throws InvalidParameter.
-  BlockIlu(const SparseGraph &graph, int block_size, int fill_level, int n_threads = 1);
+  /// of rows. @param deferred 1 for rows with a diagonal next to zero, shape=(n_rows) or empty: none. Throws
+  /// InvalidParameter, DimensionMismatch.
+  BlockIlu(const SparseGraph &graph, int block_size, int fill_level, int n_threads = 1,
+           std::span<const char> deferred = {});
 
   int         n_rows() const { return static_cast<int>(order_.size()); }
   int         block_size() const { return block_size_; }
@@ -76,7 +82,7 @@ private:
   /// What a thread needs to compute rows.
   struct Workspace;
 
-  void cut(const SparseGraph &graph);
+  void cut(const SparseGraph &graph, std::span<const char> deferred);
   void find_pattern(const SparseGraph &graph);
 
   template <int block_size>

@@ -86,9 +86,9 @@ struct SolveReport
 /// Solves A x = b by GMRES (Belos, right preconditioned) or directly (MUMPS).
 ///
 /// Rows and columns are equilibrated first by D = diag(|a_ii|^-1/2), since the diagonals of displacement and phase
-/// differ by many orders: D A D y = D b, x = D y. A row without diagonal (a multiplier) is scaled by its largest
-/// entry. Unknowns whose row holds the diagonal alone are known beforehand and exact; residuals are relative to what
-/// they leave of the right-hand side.
+/// differ by many orders: D A D y = D b, x = D y. A row without diagonal or with a small negative one (a
+/// multiplier) is scaled by its largest entry. Unknowns whose row holds the diagonal alone are known beforehand and
+/// exact; residuals are relative to what they leave of the right-hand side.
 ///
 /// Several ranks: restricted additive Schwarz, each rank factors its rows and `overlap` layers of its neighbours'.
 ///
@@ -120,10 +120,17 @@ public:
   /// right-hand sides needs stronger ones, which serve for those after it, too.
   SolveReport solve(Matrix &matrix, std::span<const Vector> rhs, std::span<Vector> solutions);
 
+  /// Solves once more with the matrix of the last solve, which has not been touched since: equilibration and factors
+  /// serve as they are. Throws as solve, and Error if there was no solve before.
+  SolveReport solve_again(const Matrix &matrix, const Vector &rhs, Vector &solution);
+
   /// Drops symbolic phases and the memory of escalations: the mesh has changed, or a restart has to repeat this run.
   void forget();
 
 private:
+  SolveReport solve_equilibrated(const Matrix &matrix, std::span<const Vector> rhs, std::span<Vector> solutions,
+                                 SolveReport report);
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

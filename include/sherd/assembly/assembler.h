@@ -4,6 +4,7 @@
 
 #include <sherd/algebra/matrix.h>
 #include <sherd/algebra/vector.h>
+#include <sherd/assembly/interface_terms.h>
 #include <sherd/assembly/load_values.h>
 #include <sherd/assembly/scatter.h>
 #include <sherd/assembly/tied_elements.h>
@@ -30,7 +31,7 @@ struct SuspectElements
   double           largest_phase = 0.; ///< on this rank
 };
 
-/// The element loop: brings the weak forms of a model to distributed vectors and matrices.
+/// The element loop: brings the weak forms of a model to distributed vectors and matrices, those on interfaces too.
 ///
 /// Caches the geometry and the toughness of the active elements, so it belongs to one mesh and one distribution: make
 /// a new one after each refinement. Threads: OMP_NUM_THREADS. The results do not depend on their number.
@@ -63,6 +64,10 @@ public:
   /// int N_A dA of every owned control point [length^2], shape=(n_owned).
   const std::vector<double> &point_area() const { return point_area_; }
 
+  /// Continuity across interfaces. Its multipliers are points without mass; what is said by control point here is 0
+  /// for them.
+  const InterfaceTerms<Model> &interfaces() const { return interfaces_; }
+
   /// Matrix with the graph of the space, zero.
   Matrix make_matrix() const { return Matrix(distribution_, space_->distribution().graph, n_fields); }
 
@@ -83,7 +88,7 @@ public:
                  PhaseTangent phase_tangent, const LoadValues<Model> &loads, Vector &force, Vector &external,
                  Matrix &matrix) const;
 
-  /// M in the displacement block, 1 on the diagonal of the phase.
+  /// M in the displacement block, 1 on the diagonal of the phase and of multipliers.
   void mass_matrix(Matrix &matrix) const;
 
   /// Loads of one time. Collective.
@@ -100,10 +105,11 @@ public:
   /// @p history is that of the end of the step, committed(level, ...). Collective.
   double withheld_work(const BalanceLevel &level, const Vector &previous, const QuadratureField &history) const;
 
-  /// The history after a step: max(H, Psi+) of the level, by the irreversibility rule of the model.
+  /// The memory after a step, by the irreversibility rule of the model: max(H, Psi+) of the level for a history.
   QuadratureField committed(const BalanceLevel &level, const QuadratureField &history) const;
 
-  /// Largest H over the onset of damage (theory C.2) at a quadrature point of each active element, shape=(n_active).
+  /// Largest remembered H over the onset of damage (theory C.2) at a quadrature point of each active element,
+  /// shape=(n_active). Rules without a history remember none.
   std::vector<double> intensity(const QuadratureField &history) const;
 
   /// Elements with suspect quadrature points, theory C.2 1. Local.
@@ -144,6 +150,7 @@ private:
   std::vector<RowRange>               ranges_;
   double                              shortest_edge_;
   std::vector<double>                 phase_scale_, point_area_;
+  InterfaceTerms<Model>               interfaces_;
 };
 
 } // namespace sherd

@@ -62,7 +62,8 @@ Assembler<Model>::Assembler(const Model &model, const ShellSpace<degree, spacedi
       ranges_(row_ranges(space.distribution(), omp_get_max_threads())),
       shortest_edge_(std::numeric_limits<double>::infinity()),
       phase_scale_(distribution_->n_owned(), 0.),
-      point_area_(distribution_->n_owned(), 0.)
+      point_area_(distribution_->n_owned(), 0.),
+      interfaces_(model, space, ties)
 {
   const auto &d = space.distribution();
   collectively(distribution_->comm(), [&] {
@@ -244,6 +245,7 @@ void Assembler<Model>::force(const BalanceLevel &level, const QuadratureField &h
         element_force(*model_, elements_[e], f, history[e], vector);
         scatter_force(e, vector, ranges_[r], force);
       }
+  interfaces_.add_force(level.position, level.phase, force);
   external_force(level, loads, external);
 }
 
@@ -282,6 +284,7 @@ void Assembler<Model>::linearise(const BalanceLevel &level, const QuadratureFiel
         scatter_force(e, vector, ranges_[r], force);
         scatter_matrix(e, tangent, ranges_[r], matrix);
       }
+  interfaces_.linearise(level.position, level.phase, force, matrix);
   for (const auto &[a, field] : tied_unknowns_)
     matrix.diagonal(a, field) = 1.;
   if (loads.dead)
@@ -311,6 +314,7 @@ void Assembler<Model>::mass_matrix(Matrix &matrix) const
       }
   for (int a = 0; a < distribution_->n_owned(); ++a)
     matrix.diagonal(a, spacedim) = 1.;
+  interfaces_.set_identity(matrix);
   for (const auto &[a, field] : tied_unknowns_)
     matrix.diagonal(a, field) = 1.;
 }
@@ -327,9 +331,10 @@ Energies Assembler<Model>::energies(const Vector &position, const Vector &veloci
   Energies sum;
   for (const auto &energies : part)
     sum += energies;
-  double values[] = {sum.active, sum.passive, sum.kinetic, sum.fracture};
-  MPI_Allreduce(MPI_IN_PLACE, values, 4, MPI_DOUBLE, MPI_SUM, distribution_->comm());
-  return {values[0], values[1], values[2], values[3]};
+  sum.constraint  = interfaces_.energy(position, phase);
+  double values[] = {sum.active, sum.passive, sum.kinetic, sum.fracture, sum.constraint};
+  MPI_Allreduce(MPI_IN_PLACE, values, 5, MPI_DOUBLE, MPI_SUM, distribution_->comm());
+  return {values[0], values[1], values[2], values[3], values[4]};
 }
 
 template <class Model>
@@ -360,8 +365,9 @@ QuadratureField Assembler<Model>::committed(const BalanceLevel &level, const Qua
     {
       const auto f      = fields(static_cast<int>(e), level.position, level.acceleration, level.phase);
       const auto energy = element_active_energy(*model_, elements_[e], f);
+      const auto phase  = element_phase<Model>(elements_[e], f);
       for (int q = 0; q < n_q; ++q)
-        result[e][q] = model_->irreversibility.trial(history[e][q], energy[q]);
+        result[e][q] = model_->irreversibility.commit(history[e][q], energy[q], phase[q]);
     }
   return result;
 }
@@ -372,8 +378,9 @@ std::vector<double> Assembler<Model>::intensity(const QuadratureField &history) 
   std::vector<double> result(elements_.size(), 0.);
   for (std::size_t e = 0; e < elements_.size(); ++e)
     for (int q = 0; q < n_q; ++q)
-      result[e] = std::max(result[e], history[e][q] / branch::onset(model_->degradation, elements_[e].toughness[q],
-                                                                    model_->length_scale));
+      result[e] = std::max(result[e], model_->irreversibility.trial(history[e][q], 0.) /
+                                          branch::onset(model_->degradation, model_->crack_density,
+                                                        elements_[e].toughness[q], model_->length_scale));
   return result;
 }
 
@@ -391,7 +398,8 @@ SuspectElements Assembler<Model>::suspects(const BalanceLevel &level, const Quad
         continue;
       const auto energy = element_active_energy(*model_, elements_[e], f);
       for (int q = 0; q < n_q; ++q)
-        if (branch::is_suspect(model_->degradation, model_->irreversibility.trial(history[e][q], energy[q]), phase[q],
+        if (branch::is_suspect(model_->degradation, model_->crack_density,
+                               model_->irreversibility.trial(history[e][q], energy[q]), phase[q],
                                elements_[e].toughness[q], model_->length_scale))
           {
             result.active.push_back(static_cast<int>(e));

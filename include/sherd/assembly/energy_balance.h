@@ -9,7 +9,8 @@ namespace sherd
 
 /// Keeps the books of a run,
 ///
-///   kinetic + elastic + fracture + irreversible = their initial value + external work + balance * largest,
+///   kinetic + elastic + fracture + constraint + irreversible = their initial value + external work + balance *
+///   largest,
 ///
 /// with irreversible = int int g'(phi) (H - Psi+) dphi dA, the work that the history field withholds, and largest the
 /// largest magnitude of these terms so far. What the balance shows is the dissipation of the integrator.
@@ -30,8 +31,7 @@ public:
   explicit EnergyBalance(const State &state) : state_(state) {}
 
   /// @param initial   energies at the start of the run
-  explicit EnergyBalance(const Energies &initial)
-      : state_{.initial = initial.elastic() + initial.kinetic + initial.fracture, .now = initial}
+  explicit EnergyBalance(const Energies &initial) : state_{.initial = total(initial), .now = initial}
   {
     note_largest();
   }
@@ -54,15 +54,21 @@ public:
   double balance() const
   {
     const auto  &now  = state_.now;
-    const double left = now.elastic() + now.kinetic + now.fracture + state_.irreversible - state_.initial - state_.work;
+    const double left = total(now) + state_.irreversible - state_.initial - state_.work;
     return state_.largest > 0. ? left / state_.largest : 0.;
   }
 
 private:
+  static double total(const Energies &energies)
+  {
+    return energies.elastic() + energies.kinetic + energies.fracture + energies.constraint;
+  }
+
   void note_largest()
   {
     const auto &now = state_.now;
-    for (const double energy : {now.elastic(), now.kinetic, now.fracture, state_.work, state_.irreversible})
+    for (const double energy :
+         {now.elastic(), now.kinetic, now.fracture, now.constraint, state_.work, state_.irreversible})
       state_.largest = std::max(state_.largest, std::abs(energy));
   }
 

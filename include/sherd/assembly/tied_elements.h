@@ -42,7 +42,7 @@ public:
         bool             tied = false;
         for (int i = 0; i < n; ++i)
           {
-            points[i] = space.surface().point_offset(p) + functions[i];
+            points[i] = space.surface().point(p, functions[i]);
             tied      = tied || !ties_of[points[i]].empty();
           }
         if (!tied)
@@ -56,8 +56,8 @@ public:
               R(i, i) = 0.;
               for (std::size_t m = 0; m < ties[t].masters.size(); ++m)
                 {
-                  const auto found = std::lower_bound(points.begin(), points.end(), ties[t].masters[m]);
-                  assert(found != points.end() && *found == ties[t].masters[m]);
+                  const auto found = std::find(points.begin(), points.end(), ties[t].masters[m]);
+                  assert(found != points.end());
                   R(found - points.begin(), i) = ties[t].factors[m];
                 }
             }

@@ -8,10 +8,11 @@ namespace sherd
 /// Energies of a body or of a part of it, [energy].
 struct Energies
 {
-  double active   = 0.; ///< int g Psi+ dA
-  double passive  = 0.; ///< int Psi- dA
-  double kinetic  = 0.; ///< int rho v.v / 2 dA
-  double fracture = 0.; ///< int Psi_frac dA
+  double active     = 0.; ///< int g Psi+ dA
+  double passive    = 0.; ///< int Psi- dA
+  double kinetic    = 0.; ///< int rho v.v / 2 dA
+  double fracture   = 0.; ///< int Psi_frac dA
+  double constraint = 0.; ///< of the continuity across interfaces, theory G
 
   double elastic() const { return active + passive; }
 
@@ -21,6 +22,7 @@ struct Energies
     passive += other.passive;
     kinetic += other.kinetic;
     fracture += other.fracture;
+    constraint += other.constraint;
     return *this;
   }
 };
@@ -74,7 +76,8 @@ double element_withheld_work(const Model &model, const ElementData<Model> &data,
       for (int b = 0; b < s.n_functions; ++b)
         before += s.value[q][b] * previous_phase[b];
       sum += data.geometry.reference[q].dA * model.degradation.first(.5 * (before + p.phi)) *
-             (history[q] - p.response.energy_active) * (p.phi - before);
+             (model.irreversibility.trial(history[q], p.response.energy_active) - p.response.energy_active) *
+             (p.phi - before);
     }
   return sum;
 }

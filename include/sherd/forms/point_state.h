@@ -134,7 +134,8 @@ struct PointState
   Point<Model::spacedim>         inertia; ///< acceleration
   double                         phi, phi_1, phi_2, laplacian;
   SplitResponse<Model::spacedim> response;
-  double                         driving; ///< H, trial value
+  double                         driving;    ///< H, trial value
+  double                         resistance; ///< against healing, force on the phase by area [force/length]
 };
 
 /// Evaluates quadrature point @p q from the fields there. The Laplacian of the phase on the reference surface is
@@ -156,8 +157,10 @@ PointState<Model> evaluate_point(const Model &model, const ElementData<Model> &d
                       fields.d2[dim],
                       laplacian,
                       model.split.respond(surface_point(data.reference[q], frame)),
+                      0.,
                       0.};
-  p.driving = model.irreversibility.trial(accepted_history, p.response.energy_active);
+  p.driving    = model.irreversibility.trial(accepted_history, p.response.energy_active);
+  p.resistance = data.toughness[q] / model.length_scale * model.irreversibility.resistance(accepted_history, p.phi);
   return p;
 }
 

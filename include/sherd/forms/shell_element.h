@@ -8,14 +8,17 @@ namespace sherd
 /// Which stiffness the phase has in the tangent.
 enum class PhaseTangent
 {
-  consistent, ///< kappa = g'' H + Gc/(2 l0)
+  consistent, ///< kappa = g'' H + Gc w''/(4 l0) and the stiffness of the resistance
   switched    ///< max(|kappa|, 0.02 Gc/(2 l0)): positive, so that Newton leaves the false branch (theory C.2)
 };
 
 /// Internal and inertial force of one element and the phase residual,
 ///
 ///   f_A    = int rho N_A a + tau^ab N_A,a a_b + M_0^ab N_A;ab n dA,
-///   fphi_A = int g' H N_A + Gc/(2 l0) [(phi - 1) N_A + c1 A^ab N_A,a phi,b + c2 lap N_A lap phi] dA.
+///   fphi_A = int (g' H + r Gc/l0) N_A + Gc/(2 l0) [w'/2 N_A + c1 A^ab N_A,a phi,b + c2 lap N_A lap phi] dA
+///
+/// with w of the crack density, w'/2 = phi - 1 for those of second and fourth order, and the resistance r of the
+/// irreversibility against healing.
 ///
 /// @param history   accepted H at the quadrature points, shape=(n_q)
 /// @param force     overwritten

@@ -44,7 +44,8 @@ void add_point_force(const Model &model, const ElementData<Model> &data, const S
   const double  bend      = stiffness * model.crack_density.c2(l0) * p.laplacian;
 
   FieldPack n{}, n1{}, n2{}, n11{}, n22{}, n12{};
-  n[dim]   = model.degradation.first(p.phi) * p.driving * dA + stiffness * (p.phi - 1.);
+  n[dim] = (model.degradation.first(p.phi) * p.driving + p.resistance) * dA +
+           stiffness * (.5 * model.crack_density.local_first(p.phi));
   n1[dim]  = c1 * (A[0] * p.phi_1 + A[2] * p.phi_2) - bend * reference.laplace_1;
   n2[dim]  = c1 * (A[2] * p.phi_1 + A[1] * p.phi_2) - bend * reference.laplace_2;
   n11[dim] = bend * A[0];
@@ -126,9 +127,11 @@ void element_tangent(const Model &model, const ElementData<Model> &data, const E
           internal::add_point_force(model, data, s, p, total, q, sum);
 
           const double stiffness = Gc / (2. * l0) * dA;
-          const double kappa     = dA * (phase_tangent == PhaseTangent::consistent
-                                             ? branch::stiffness(model.degradation, p.driving, p.phi, Gc, l0)
-                                             : branch::switched_stiffness(model.degradation, p.driving, p.phi, Gc, l0));
+          const double local =
+              phase_tangent == PhaseTangent::consistent
+                  ? branch::stiffness(model.degradation, model.crack_density, p.driving, p.phi, Gc, l0)
+                  : branch::switched_stiffness(model.degradation, model.crack_density, p.driving, p.phi, Gc, l0);
+          const double kappa = dA * (local + Gc / l0 * model.irreversibility.resistance_stiffness(history[q], p.phi));
           tables.set(k, p.frame, dA * degraded_tangent(p.response, g), total,
                      internal::phase_stiffness(data.geometry.reference[q], stiffness * model.crack_density.c1(l0),
                                                stiffness * model.crack_density.c2(l0)),

@@ -60,6 +60,13 @@ public:
     return contains(X) ? homogeneous_history(g, core_phase, Gc, l0_) : 0.;
   }
 
+  /// The same for any density.
+  template <Degradation Function, CrackDensity Density>
+  double history(const Point<spacedim> &X, const Function &g, const Density &density, const double Gc) const
+  {
+    return contains(X) ? homogeneous_history(g, density, core_phase, Gc, l0_) : 0.;
+  }
+
   /// Optimal profile of the density around the nearest crack, the start value of the phase at X.
   template <CrackDensity Density>
   double phase(const Point<spacedim> &X, const Density &density) const

@@ -93,7 +93,7 @@ std::vector<EdgeGeometry<degree, spacedim>> edge_geometry(const Surface<degree, 
       piece.outward                         = at_end ? 1 : -1;
       for (std::size_t k = 0; k < functions.size(); ++k)
         {
-          piece.points.push_back(surface.point_offset(edge.patch) + functions[k]);
+          piece.points.push_back(surface.point(edge.patch, functions[k]));
           E.row(k) *= patch.weights[functions[k]];
           control.row(k) = patch.control_points.row(functions[k]);
         }

@@ -33,7 +33,7 @@ struct ElementGeometry
   static constexpr int n_b = ShapeValues<degree>::n_functions;
   static constexpr int n_q = ShapeValues<degree>::n_points;
 
-  std::vector<int>                                      points;      ///< control points, ascending
+  std::vector<int>                                      points;      ///< control points, in the order of functions_of
   ExtractionMatrix<degree>                              extraction;  ///< E, shape=(n_functions, n_b)
   std::optional<std::array<double, n_b>>                denominator; ///< W_b of a rational element
   std::array<ReferenceQuadraturePoint, n_q>             reference;

@@ -25,7 +25,7 @@ ElementGeometry<degree, spacedim> element_geometry(const Surface<degree, spacedi
   for (std::size_t k = 0; k < functions.size(); ++k)
     {
       const int i = functions[k];
-      g.points.push_back(surface.point_offset(p) + i);
+      g.points.push_back(surface.point(p, i));
       g.extraction.row(k) *= patch.weights[i];
       rational = rational || patch.weights[i] != 1.;
       g.bezier_points += patch.control_points.row(i).transpose() * g.extraction.row(k);

@@ -123,11 +123,12 @@ SurfacePlace closest_place(const Surface<degree, spacedim> &surface, const Point
 template <int degree, int spacedim>
 Point<spacedim> position(const Surface<degree, spacedim> &surface, const SurfacePlace &place)
 {
-  const auto     &patch  = surface.patch(place.patch);
-  const auto      values = evaluate(surface, place);
-  Point<spacedim> X      = Point<spacedim>::Zero();
-  for (std::size_t k = 0; k < values.points.size(); ++k)
-    X += values.value[k] * patch.control_points.row(values.points[k] - surface.point_offset(place.patch)).transpose();
+  const auto     &patch     = surface.patch(place.patch);
+  const auto      functions = patch.basis.functions_of(patch.basis.element_at(place.u, place.v));
+  const auto      values    = evaluate(surface, place);
+  Point<spacedim> X         = Point<spacedim>::Zero();
+  for (std::size_t k = 0; k < values.value.size(); ++k)
+    X += values.value[k] * patch.control_points.row(functions[k]).transpose();
   return X;
 }
 
@@ -142,7 +143,7 @@ PlaceValues evaluate(const Surface<degree, spacedim> &surface, const SurfacePlac
   double      sum = 0.;
   for (std::size_t k = 0; k < functions.size(); ++k)
     {
-      result.points.push_back(surface.point_offset(place.patch) + functions[k]);
+      result.points.push_back(surface.point(place.patch, functions[k]));
       result.value.push_back(patch.weights[functions[k]] * values[k].value);
       sum += result.value.back();
     }

@@ -1,20 +1,14 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
-#include <sherd/geometry/patch.h>
+#include <sherd/geometry/interface.h>
 
 namespace sherd
 {
-
-/// One side of one patch.
-struct Edge
-{
-  int  patch;
-  Side side;
-};
 
 /// What a refinement of a surface did, in the surface's own numbering.
 struct SurfaceRefinement
@@ -23,9 +17,12 @@ struct SurfaceRefinement
   std::vector<int> parent;   ///< parent[e_new] = old element that contains it
 };
 
-/// Reference surface: patches, and names for some of their sides.
+/// Reference surface: patches, interfaces along which they are joined, and names for some of their sides.
 ///
-/// Numbering: control point id = offset of its patch + index of its function, element id alike, patches in order.
+/// Numbering: control points patch by patch in the order of their functions, those that patches share once, with the
+/// first patch that has them; elements patch by patch. A corner in which any number of joined patches meet is one
+/// control point. Shared control points are bitwise equal on all their patches.
+/// Source: theory H.6.
 template <int degree, int spacedim>
 class Surface
 {
@@ -33,15 +30,23 @@ public:
   using PatchType = Patch<degree, spacedim>;
 
   /// @throws DimensionMismatch, InvalidParameter   from validate(patch)
-  /// @throws InvalidParameter                      a named edge on a patch that does not exist
-  Surface(std::vector<PatchType> patches, std::map<std::string, std::vector<Edge>> edges);
+  /// @throws InvalidParameter   an edge on a patch that does not exist; an interface whose sides have not the same
+  ///                            knots, weights and control points along it, or a side in more than one interface
+  Surface(std::vector<PatchType> patches, std::map<std::string, std::vector<Edge>> edges,
+          std::vector<Interface> interfaces = {});
 
   int              n_patches() const { return static_cast<int>(patches_.size()); }
   const PatchType &patch(int p) const { return patches_[p]; }
-  int              n_control_points() const { return point_offset_.back(); }
+  int              n_control_points() const { return static_cast<int>(location_offsets_.size()) - 1; }
   int              n_elements() const { return element_offset_.back(); }
-  int              point_offset(int p) const { return point_offset_[p]; }
   int              element_offset(int p) const { return element_offset_[p]; }
+
+  /// Control point of a function of patch @p p.
+  int point(int p, int function) const { return points_[p][function]; }
+
+  /// Control points of all functions of patch @p p, in their order; the two ends of a patch that is joined to itself
+  /// name the same ones.
+  std::span<const int> points_of_patch(int p) const { return points_[p]; }
 
   struct Location
   {
@@ -49,12 +54,19 @@ public:
   };
 
   /// Patch and local number of an element.
-  Location locate_element(int element) const { return locate(element_offset_, element); }
+  Location locate_element(int element) const;
 
-  /// Patch and local number of a control point.
-  Location locate_point(int point) const { return locate(point_offset_, point); }
+  /// Patch and function of a control point: the first of locations_of(point).
+  Location locate_point(int point) const { return locations_[location_offsets_[point]]; }
+
+  /// All patches and functions of a control point, ascending.
+  std::span<const Location> locations_of(int point) const
+  {
+    return {locations_.data() + location_offsets_[point], locations_.data() + location_offsets_[point + 1]};
+  }
 
   const std::map<std::string, std::vector<Edge>> &edges() const { return edges_; }
+  const std::vector<Interface>                   &interfaces() const { return interfaces_; }
 
   /// Sides that carry this name. @throws InvalidParameter with the names there are
   const std::vector<Edge> &edge(const std::string &name) const;
@@ -63,21 +75,39 @@ public:
   ControlValues<spacedim> control_points() const;
   Eigen::VectorXd         weights() const;
 
-  /// Refines around the marked control points down to @p target, by the structured mesh strategy (theory H.4).
-  /// Exact: the surface and every field on it stay the same functions.
+  /// Refines around the marked control points down to @p target, by the structured mesh strategy (theory H.4), a shared
+  /// one in all of its patches, and goes on across interfaces until both sides of each carry the same functions
+  /// (theory H.6). Exact: the surface and every field on it stay the same functions.
   /// @throws Error   if the refined functions are linearly dependent, which structured refinement has not been seen to
-  /// do
+  ///                 do, or the sides of an interface do not come to agree
   /// @throws InvalidParameter   a control point that does not exist, a target that is not positive
   SurfaceRefinement refine(const std::vector<int> &points, const SpanTarget &target);
 
+  /// The same with a target for each patch, shape=(n_patches).
+  SurfaceRefinement refine_to(const std::vector<int> &points, const std::vector<SpanTarget> &targets);
+
 private:
-  static Location locate(const std::vector<int> &offsets, int i);
-  void            number();
+  std::vector<Refinement> refine_patches(const std::vector<std::vector<int>> &marked,
+                                         const std::vector<SpanTarget>       &targets);
+  void                    number();
+  void                    equalise();
+  Location                source_of(int point) const; ///< whose values all patches of the control point get
 
   std::vector<PatchType>                   patches_;
   std::map<std::string, std::vector<Edge>> edges_;
-  std::vector<int>                         point_offset_, element_offset_;
+  std::vector<Interface>                   interfaces_;
+  std::vector<int>                         element_offset_;
+  std::vector<char>             polynomial_; ///< patches whose weights are one number: they stay so, bit by bit
+  std::vector<std::vector<int>> points_;     ///< by patch and function
+  std::vector<int>              location_offsets_;
+  std::vector<Location>         locations_;
 };
+
+/// Interfaces between all sides of @p patches that coincide: the same knots along them, weights and control points, to
+/// rounding, in either direction. Sides that are one point, such as poles, are left out.
+/// @throws InvalidParameter   more than two sides that coincide
+template <int degree, int spacedim>
+std::vector<Interface> find_interfaces(const std::vector<Patch<degree, spacedim>> &patches);
 
 /// Elements that touch a side of a patch, as surface elements, in the order of the parameter along the side.
 template <int degree, int spacedim>
@@ -99,8 +129,9 @@ std::vector<int> second_row_along(const Surface<degree, spacedim> &surface, cons
 
 #define SHERD_EXTERN(degree, spacedim)                                                                                 \
   extern template class Surface<degree, spacedim>;                                                                     \
-  extern template std::vector<int> elements_along(const Surface<degree, spacedim> &, const Edge &);                    \
-  extern template std::vector<int> points_along(const Surface<degree, spacedim> &, const Edge &);
+  extern template std::vector<int>       elements_along(const Surface<degree, spacedim> &, const Edge &);              \
+  extern template std::vector<int>       points_along(const Surface<degree, spacedim> &, const Edge &);                \
+  extern template std::vector<Interface> find_interfaces(const std::vector<Patch<degree, spacedim>> &);
 namespace sherd
 {
 SHERD_EXTERN(2, 2)

@@ -3,6 +3,7 @@
 #include <sherd/base/exceptions.h>
 #include <sherd/base/print.h>
 #include <sherd/material/bending.h>
+#include <sherd/material/sheet.h>
 
 #include <cmath>
 
@@ -25,6 +26,9 @@ public:
       throw InvalidParameter("Canham bending: modulus c = " + print(c) +
                              " must be positive and finite; for a surface without bending stiffness use NoBending");
   }
+
+  /// @throws InvalidParameter  unless the bending modulus of the sheet is positive and finite.
+  explicit Canham(const Sheet &sheet) : Canham(sheet.bending) {}
 
   double stiffness() const { return c_; } ///< c [force * length]
 

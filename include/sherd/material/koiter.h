@@ -4,6 +4,7 @@
 #include <sherd/base/print.h>
 #include <sherd/material/bending.h>
 #include <sherd/material/plane_stress.h>
+#include <sherd/material/sheet.h>
 
 #include <cmath>
 #include <string>
@@ -38,6 +39,15 @@ public:
   Koiter(const double E, const double nu, const double thickness)
       : Koiter(plane_stress_moduli(E, nu, thickness), thickness)
   {
+  }
+
+  /// Sheet with a bending modulus of its own: c stands for T^2/12 (K + G), Poisson's effect is that of K and G.
+  /// @throws InvalidParameter  unless all constants are positive and finite.
+  explicit Koiter(const Sheet &sheet) : moduli_(sheet.moduli)
+  {
+    require_valid(sheet);
+    const double factor = sheet.bending / (sheet.moduli.bulk + sheet.moduli.shear);
+    moduli_             = {factor * sheet.moduli.bulk, factor * sheet.moduli.shear};
   }
 
   /// Flexural rigidity D = T^2/12 (K + G) = E T^3 / (12 (1 - nu^2)) [force * length].

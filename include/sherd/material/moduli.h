@@ -29,6 +29,13 @@ inline void require_elastic_constants(const double E, const double nu, const dou
     throw InvalidParameter(where + ": Poisson's ratio " + print(nu) + " must lie between -1 and " + print(nu_max) +
                            ", both excluded");
 }
+
+inline void require_positive_moduli(const Moduli &moduli, const std::string &where)
+{
+  if (!(std::isfinite(moduli.bulk) && moduli.bulk > 0. && std::isfinite(moduli.shear) && moduli.shear > 0.))
+    throw InvalidParameter(where + ": moduli K = " + print(moduli.bulk) + " and G = " + print(moduli.shear) +
+                           " must be positive and finite");
+}
 } // namespace internal
 
 /// Surface with Young's modulus E [force/length] and Poisson's ratio nu: K = E / (2 (1 - nu)), G = E / (2 (1 + nu)).

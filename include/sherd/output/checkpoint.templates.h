@@ -95,6 +95,11 @@ void put(ArrayWriter archive, const Surface<degree, spacedim> &surface)
   archive("edges/names", names);
   archive("edges/patches", patches);
   archive("edges/sides", sides);
+  std::vector<int> interfaces;
+  for (const auto &[first, second, reversed] : surface.interfaces())
+    interfaces.insert(interfaces.end(), {first.patch, static_cast<int>(first.side), second.patch,
+                                         static_cast<int>(second.side), reversed ? 1 : 0});
+  archive("interfaces", interfaces);
 }
 
 template <int degree, int spacedim>
@@ -120,7 +125,21 @@ Surface<degree, spacedim> get_surface(ArrayReader archive)
       edges[names.substr(begin, end - begin)].push_back({patches[k], static_cast<Side>(sides[k])});
       begin = end + 1;
     }
-  return Surface<degree, spacedim>(std::move(all), std::move(edges));
+  // Files written before surfaces could have interfaces do not name them.
+  std::vector<int> numbers;
+  if (archive.contains("interfaces"))
+    archive("interfaces", numbers);
+  std::vector<Interface> interfaces;
+  const auto             is_side = [](int side) { return side >= 0 && side <= static_cast<int>(Side::v_max); };
+  for (std::size_t k = 0; k < numbers.size(); k += 5)
+    {
+      if (k + 5 > numbers.size() || !is_side(numbers[k + 1]) || !is_side(numbers[k + 3]))
+        throw FileError("the interfaces are incomplete");
+      interfaces.push_back({{numbers[k], static_cast<Side>(numbers[k + 1])},
+                            {numbers[k + 2], static_cast<Side>(numbers[k + 3])},
+                            numbers[k + 4] != 0});
+    }
+  return Surface<degree, spacedim>(std::move(all), std::move(edges), std::move(interfaces));
 }
 
 template <class Archive, int degree, int spacedim>
@@ -132,6 +151,13 @@ void exchange(Archive archive, GlobalState<degree, spacedim> &state)
   archive("phase", state.phase);
   archive("previous_phase", state.previous_phase);
   archive("history", state.history);
+  if constexpr (Archive::is_reader)
+    {
+      if (archive.contains("multipliers"))
+        archive("multipliers", state.multipliers.values);
+    }
+  else if (state.multipliers.values.rows() > 0)
+    archive("multipliers", state.multipliers.values);
   archive("time", state.time);
   archive("step_size", state.step_size);
   archive("step", state.step);
@@ -142,7 +168,8 @@ void check_sizes(const Surface<degree, spacedim> &surface, const GlobalState<deg
 {
   const auto n = surface.n_control_points();
   if (state.position.rows() != n || state.velocity.rows() != n || state.acceleration.rows() != n ||
-      state.phase.size() != n || state.previous_phase.size() != n || state.history.rows() != surface.n_elements())
+      state.phase.size() != n || state.previous_phase.size() != n || state.history.rows() != surface.n_elements() ||
+      static_cast<std::size_t>(state.multipliers.values.rows()) != state.multipliers.pieces.size())
     throw FileError("its state does not fit its surface");
 }
 
@@ -196,6 +223,8 @@ Checkpoint<degree, spacedim> read_checkpoint(const Environment &env, const std::
         archive("parameters", result.parameters);
         internal::exchange(archive.in("state"), result.state);
         internal::exchange(archive.in("controller"), result.controller);
+        if (result.state.multipliers.values.rows() > 0)
+          result.state.multipliers.pieces = interface_pieces(result.surface);
         result.recorder = get_recorder_memory(archive.in("recorder"));
         internal::check_sizes(result.surface, result.state);
         return result;

@@ -6,6 +6,7 @@
 #include <sherd/geometry/bezier_element.h>
 #include <sherd/geometry/surface.h>
 #include <sherd/output/crack_tree.h>
+#include <sherd/output/join_cracks.h>
 
 namespace sherd
 {
@@ -45,7 +46,8 @@ SampleGrid sample_broken_set(const Patch<degree, spacedim> &patch, const Eigen::
 /// The lattices are chosen once, four samples along the finest elements there will be, and do not change with the mesh;
 /// so two steps differ by what the cracks did, not by how they were looked at. Feed every accepted step and none
 /// that was rejected. Where a band ends is where phi = threshold on its axis: the tip is that point, and the length
-/// includes the way to it. All sides of all patches are edges of the body.
+/// includes the way to it. Sides of patches that no interface joins are edges of the body; cracks are joined across
+/// interfaces (join_cracks). A crack whose band an interface cuts lengthwise is seen once on each side.
 /// A plain value: copy it to keep or restore it. Serial: runs where a complete phase field is.
 class CrackTracker
 {
@@ -76,6 +78,8 @@ public:
 private:
   std::vector<Eigen::Vector3d> branch_points() const;
   std::vector<int>             ends_inside() const;
+  void                         join(const std::vector<int> &patch_of_arm, const std::vector<char> &self_joined,
+                                    const std::vector<Eigen::Vector3d> &broken);
 
   CrackOptions                 options_;
   std::vector<SampleLattice>   lattices_;

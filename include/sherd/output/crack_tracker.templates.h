@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include <sherd/geometry/place.h>
 #include <sherd/output/crack_tracker.h>
 
 namespace sherd
@@ -59,21 +60,52 @@ inline int n_equal_spans(const std::vector<double> &knots)
   return n;
 }
 
+/// Parameters of points along a side, a sample apart.
 template <int degree, int spacedim>
-std::vector<Eigen::Vector3d> points_along_edges(const Patch<degree, spacedim> &patch, const SampleLattice &lattice)
+std::vector<std::array<double, 2>> parameters_along_side(const Patch<degree, spacedim> &patch, Side side,
+                                                         const SampleLattice &lattice)
 {
-  std::vector<Eigen::Vector3d> points;
-  const auto                  &domain = patch.basis.domain();
-  for (int d = 0; d < 2; ++d)
-    for (const double side : {domain.min[1 - d], domain.max[1 - d]})
-      for (int k = 0; k <= lattice.n[d]; ++k)
+  std::vector<std::array<double, 2>> result;
+  const auto                        &domain = patch.basis.domain();
+  const int                          d      = 1 - normal_direction(side);
+  for (int k = 0; k <= lattice.n[d]; ++k)
+    {
+      std::array<double, 2> at;
+      at[d]     = k == lattice.n[d] ? domain.max[d] : domain.min[d] + k * lattice.spacing[d];
+      at[1 - d] = at_maximum(side) ? domain.max[1 - d] : domain.min[1 - d];
+      result.push_back(at);
+    }
+  return result;
+}
+
+/// Points along the interfaces, a sample apart, where phi is below the threshold.
+template <int degree, int spacedim>
+std::vector<Eigen::Vector3d> broken_interface_points(const Surface<degree, spacedim>  &surface,
+                                                     const Eigen::VectorXd            &phase,
+                                                     const std::vector<SampleLattice> &lattices, double threshold)
+{
+  std::vector<Eigen::Vector3d> result;
+  for (const auto &interface : surface.interfaces())
+    {
+      const int   p      = interface.first.patch;
+      const auto &patch  = surface.patch(p);
+      const auto  points = surface.points_of_patch(p);
+      for (const auto &at : parameters_along_side(patch, interface.first.side, lattices[p]))
         {
-          std::array<double, 2> at;
-          at[d]     = k == lattice.n[d] ? domain.max[d] : domain.min[d] + k * lattice.spacing[d];
-          at[1 - d] = side;
-          points.push_back(position(patch, at[0], at[1]));
+          const int  e         = patch.basis.element_at(at[0], at[1]);
+          const auto functions = patch.basis.functions_of(e);
+          // phi lies between its control values.
+          if (std::none_of(functions.begin(), functions.end(), [&](int i) { return phase[points[i]] < threshold; }))
+            continue;
+          const auto shape = evaluate(surface, SurfacePlace{p, at[0], at[1]});
+          double     phi   = 0.;
+          for (std::size_t k = 0; k < shape.points.size(); ++k)
+            phi += shape.value[k] * phase[shape.points[k]];
+          if (phi < threshold)
+            result.push_back(position(patch, at[0], at[1]));
         }
-  return points;
+    }
+  return result;
 }
 
 } // namespace internal
@@ -159,8 +191,17 @@ CrackTracker::CrackTracker(const Surface<degree, spacedim> &surface, const Crack
   for (int p = 0; p < surface.n_patches(); ++p)
     {
       lattices_.push_back(sample_lattice(surface.patch(p), spacing));
-      const auto edge = internal::points_along_edges(surface.patch(p), lattices_.back());
-      body_edge_.insert(body_edge_.end(), edge.begin(), edge.end());
+      for (const Side side : {Side::u_min, Side::u_max, Side::v_min, Side::v_max})
+        {
+          const auto  is_this = [&](const Edge &edge) { return edge.patch == p && edge.side == side; };
+          const auto &all     = surface.interfaces();
+          const bool  joined  = std::any_of(all.begin(), all.end(), [&](const Interface &interface) {
+            return is_this(interface.first) || is_this(interface.second);
+          });
+          if (!joined)
+            for (const auto &at : internal::parameters_along_side(surface.patch(p), side, lattices_.back()))
+              body_edge_.push_back(internal::position(surface.patch(p), at[0], at[1]));
+        }
     }
 }
 
@@ -177,11 +218,19 @@ void CrackTracker::update(const Surface<degree, spacedim> &surface, const Eigen:
   const double  l0    = options_.length_scale;
   const Pruning pruning{4. * l0, 2. * l0, 2. * l0, known};
   cracks_ = {};
+  std::vector<int>  patch_of_arm;
+  std::vector<char> self_joined(surface.n_patches(), 0);
+  for (const auto &interface : surface.interfaces())
+    if (interface.first.patch == interface.second.patch)
+      self_joined[interface.first.patch] = 1;
   for (int p = 0; p < surface.n_patches(); ++p)
     {
-      const auto &patch     = surface.patch(p);
-      const auto &lattice   = lattices_[p];
-      const auto  values    = phase.segment(surface.point_offset(p), patch.basis.n_functions());
+      const auto     &patch   = surface.patch(p);
+      const auto     &lattice = lattices_[p];
+      const auto      points  = surface.points_of_patch(p);
+      Eigen::VectorXd values(points.size());
+      for (std::size_t i = 0; i < points.size(); ++i)
+        values[i] = phase[points[i]];
       const auto &domain    = patch.basis.domain();
       const auto  in_domain = [&](const std::array<double, 2> &at) {
         return at[0] >= domain.min[0] && at[0] <= domain.max[0] && at[1] >= domain.min[1] && at[1] <= domain.max[1];
@@ -202,7 +251,9 @@ void CrackTracker::update(const Surface<degree, spacedim> &surface, const Eigen:
       const auto         grid = sample_broken_set(patch, values, lattice, options_.threshold);
       if (!grid.samples().empty())
         cracks_.append(crack_graph(grid, field, pruning));
+      patch_of_arm.resize(cracks_.arms.size(), p);
     }
+  join(patch_of_arm, self_joined, internal::broken_interface_points(surface, phase, lattices_, options_.threshold));
   tree_.advance(cracks_, ends_inside(), time);
 }
 

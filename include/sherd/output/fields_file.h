@@ -15,6 +15,7 @@ struct PatchArrays
   std::vector<double> gamma, weights; ///< shape=(n_functions)
   std::vector<double> control_points; ///< shape=(n_functions, spacedim)
   std::vector<double> elements;       ///< shape=(n_elements, 4): u_min, v_min, u_max, v_max
+  std::vector<int>    points;         ///< row of each function in the arrays of a frame, shape=(n_functions)
 };
 
 /// The solution as splines, DIR/fields.h5: the mesh whenever it has changed, the coefficients of every frame,

@@ -7,9 +7,12 @@ namespace sherd
 
 /// The arrays of one patch.
 template <int degree, int spacedim>
-PatchArrays patch_arrays(const Patch<degree, spacedim> &patch)
+PatchArrays patch_arrays(const Surface<degree, spacedim> &surface, int p)
 {
+  const auto &patch  = surface.patch(p);
+  const auto  points = surface.points_of_patch(p);
   PatchArrays arrays;
+  arrays.points.assign(points.begin(), points.end());
   for (int i = 0; i < patch.basis.n_functions(); ++i)
     {
       const auto &function = patch.basis.function(i);
@@ -35,7 +38,7 @@ void FieldsFile::write(const Surface<degree, spacedim> &surface, const Snapshot<
         snapshot.phase.size());
   std::vector<PatchArrays> patches;
   for (int p = 0; p < surface.n_patches(); ++p)
-    patches.push_back(patch_arrays(surface.patch(p)));
+    patches.push_back(patch_arrays(surface, p));
   const auto values = [](const auto &matrix) {
     return std::vector<double>(matrix.data(), matrix.data() + matrix.size());
   };

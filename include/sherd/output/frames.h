@@ -25,7 +25,8 @@ struct ElementField
 
 /// The deformed surface with its fields as Bezier cells: points x (z = 0 in the plane) with their weights; point data
 /// phi, displacement x - X and velocity as Bezier coefficients; cell data level, how often the largest element of the
-/// patch has been halved, and @p fields. Control points on common edges of equal elements are one point of the grid.
+/// patch has been halved, if there are several patches their number, and @p fields. Control points on common edges of
+/// equal elements are one point of the grid.
 /// @throws DimensionMismatch   if snapshot or fields do not fit the surface
 template <int degree, int spacedim>
 BezierGrid bezier_grid(const Surface<degree, spacedim> &surface, const Snapshot<spacedim> &snapshot,

@@ -66,12 +66,13 @@ BezierGrid bezier_grid(const Surface<degree, spacedim> &surface, const Snapshot<
   std::map<internal::ControlPlace, int> shared;
   for (int p = 0; p < surface.n_patches(); ++p)
     {
-      const auto &patch  = surface.patch(p);
-      const int   offset = surface.point_offset(p), n_functions = patch.basis.n_functions();
+      const auto &patch           = surface.patch(p);
+      const auto  points_of_patch = surface.points_of_patch(p);
 
-      ControlValues<n + spacedim> control(n_functions, n + spacedim);
-      control << snapshot.position.middleRows(offset, n_functions), snapshot.velocity.middleRows(offset, n_functions),
-          snapshot.phase.segment(offset, n_functions), patch.control_points;
+      ControlValues<n + spacedim> control(points_of_patch.size(), n + spacedim);
+      for (std::size_t i = 0; i < points_of_patch.size(); ++i)
+        control.row(i) << snapshot.position.row(points_of_patch[i]), snapshot.velocity.row(points_of_patch[i]),
+            snapshot.phase[points_of_patch[i]], patch.control_points.row(i);
 
       std::array<double, 2> largest{0., 0.};
       for (int e = 0; e < patch.basis.n_elements(); ++e)
@@ -109,6 +110,13 @@ BezierGrid bezier_grid(const Surface<degree, spacedim> &surface, const Snapshot<
           const double level = std::max(std::log2(largest[0] / size[0]), std::log2(largest[1] / size[1]));
           grid.cell_data[0].values.push_back(static_cast<float>(std::round(level)));
         }
+    }
+  if (surface.n_patches() > 1)
+    {
+      std::vector<float> patches;
+      for (int e = 0; e < surface.n_elements(); ++e)
+        patches.push_back(static_cast<float>(surface.locate_element(e).patch));
+      grid.cell_data.push_back({"patch", 1, std::move(patches)});
     }
   for (const auto &field : fields)
     {

@@ -30,6 +30,7 @@ void RunRecorder<degree, spacedim>::write_rows(Solver &solver, const SpaceType &
   row.elastic       = memory_.energies.elastic();
   row.kinetic       = memory_.energies.kinetic;
   row.fracture      = memory_.energies.fracture;
+  row.constraint    = memory_.energies.constraint;
   row.external_work = balance_.external_work();
   row.irreversible  = balance_.irreversible();
   row.balance       = balance_.balance();

@@ -31,6 +31,8 @@ public:
   /// @throws FileError   if there is none of this name
   const StoredArray &find(const std::string &name) const;
 
+  bool contains(const std::string &name) const { return arrays_.count(name) > 0; }
+
   const std::map<std::string, StoredArray> &all() const { return arrays_; }
 
 private:
@@ -189,6 +191,9 @@ public:
     if (!StoredType<T>::restore(arrays_->find(group_ + name), value))
       throw FileError(group_ + name + " is not of the kind or shape expected");
   }
+
+  /// Whether there is a value of this name.
+  bool contains(const std::string &name) const { return arrays_->contains(group_ + name); }
 
   ArrayReader in(const std::string &group) const { return ArrayReader(*arrays_, group_ + group + "/"); }
 

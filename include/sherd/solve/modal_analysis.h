@@ -20,13 +20,17 @@ struct VibrationMode
 
 /// Lowest modes K v = omega^2 M v of the shell linearised at @p state, without loads and with its phase field held.
 /// Collective. The shift of @p settings is in omega^2.
-/// @throws as lowest_eigenpairs
+/// @throws as lowest_eigenpairs; InvalidParameter for a space with multipliers, which have no mass
 template <class Model>
 std::vector<VibrationMode<Model::spacedim>>
 vibration_modes(const Model &model, const ShellSpace<Model::degree, Model::spacedim> &space, const Supports &supports,
                 const State<Model::degree, Model::spacedim> &state, const EigenSettings &settings)
 {
-  constexpr int                                    spacedim = Model::spacedim, n_fields = Model::n_fields;
+  constexpr int spacedim = Model::spacedim, n_fields = Model::n_fields;
+  if (space.n_multipliers() > 0)
+    throw InvalidParameter("vibration modes: the space keeps patches together by " +
+                           std::to_string(space.n_multipliers()) + " multipliers, which have no mass; use " +
+                           "continuity::Penalty");
   const SupportedUnknowns<Model::degree, spacedim> supported(supports, space);
   const Assembler<Model>                           assembler(model, space, state.distribution, supported.ties());
   Matrix                                           stiffness = assembler.make_matrix(), mass = stiffness;

@@ -23,7 +23,7 @@ struct StepResult
   /// The state at the end of the step, its history committed; nothing if the step has to be rejected.
   std::optional<State<degree, spacedim>> state;
   std::string                            failure;            ///< why there is none
-  int                                    newton        = 0;  ///< consistent Newton iterations, n_NR of paper Eq. (13)
+  int                                    newton        = 0;  ///< n_NR of paper Eq. (13), see MonolithicSolver
   int                                    linear        = 0;  ///< linear iterations, all together
   int                                    switched      = 0;  ///< branch switches (theory C.2 2)
   double                                 external_work = 0.; ///< by loads and supports over the step [energy]
@@ -39,6 +39,10 @@ struct StepResult
 /// A step: predictor (constant velocity, linearly extrapolated phase), Newton on
 /// (dy, dphi) with dy = alpha_f dx (theory F.2), branch check; if the check fails a branch switch at the same step size
 /// (theory C.2). A state that fails both, or that does not converge, or that is not finite is never returned.
+///
+/// Where one more solve with the tangent at hand, of an earlier iterate or step, should meet the tolerance, it is not
+/// assembled anew (theory F.2). n_NR counts the iterations with a tangent of their own, and the last one in any case,
+/// so that step sizes stay those of Newton's method.
 ///
 /// The arguments of the constructor have to outlive the solver.
 template <class Model, TimeIntegrator Integrator>
@@ -98,11 +102,21 @@ private:
     double larger() const { return std::max(displacement, phase); }
   };
 
+  /// The consistent tangent of an earlier iterate, which the matrix still holds as the linear solver left it.
+  struct KeptTangent
+  {
+    double mass_weight; ///< of its step
+    double contraction; ///< of the residual, to be expected from another solve with it
+    bool   fresh;       ///< solved with once only
+  };
+
   bool  find_stable_state(System &system, Result &result);
   bool  iterate(System &system, Result &result);
   void  leave_false_branch(System &system, const Vector &start, Result &result);
   bool  on_stable_branch(System &system, Result &result);
-  bool  expects_convergence(const std::vector<double> &residuals) const;
+  void  observe(const std::vector<double> &residuals);
+  bool  expects_use_of_kept_tangent(const std::vector<double> &residuals) const;
+  bool  kept_tangent_suffices(double residual) const;
   Norms linearise(System &system, PhaseTangent tangent);
   Norms evaluate(System &system);
   Norms balance(System &system, Vector force);
@@ -120,6 +134,8 @@ private:
   LinearSolver                                       linear_solver_;
   std::optional<SupportedUnknowns<degree, spacedim>> supported_;
   std::optional<Vector>                              total_force_;
+  std::optional<KeptTangent>                         kept_;
+  std::vector<double>                                last_residuals_; ///< of the last step that converged
   PhaseTimers                                        timers_;
 };
 

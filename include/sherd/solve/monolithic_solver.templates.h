@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include <sherd/fracture/branch.h>
 #include <sherd/solve/definiteness.h>
@@ -21,8 +22,9 @@ struct MonolithicSolver<Model, Integrator>::System
   Motion                   next;
   Vector                   phase;
   const QuadratureField   &history;
-  const std::vector<char> &fixed; ///< 1 for an unknown that does not move, shape=(n_owned * n_fields)
-  LoadValues<Model>        loads; ///< at its level
+  const std::vector<char> &fixed;       ///< 1 for an unknown that does not move, shape=(n_owned * n_fields)
+  const std::vector<int>  &multipliers; ///< local points
+  LoadValues<Model>        loads;       ///< at its level
 
   Vector external;            ///< f_ext, block n_fields
   Vector position;            ///< at n + alpha_f
@@ -32,13 +34,14 @@ struct MonolithicSolver<Model, Integrator>::System
   bool   has_tangent = false; ///< whether the matrix is the consistent tangent of this iterate
 
   System(const Stage &stage_, const Motion &old_, Motion next_, Vector phase_, const QuadratureField &history_,
-         const std::vector<char> &fixed_, LoadValues<Model> loads_)
+         const std::vector<char> &fixed_, const std::vector<int> &multipliers_, LoadValues<Model> loads_)
       : stage(stage_),
         old(old_),
         next(std::move(next_)),
         phase(std::move(phase_)),
         history(history_),
         fixed(fixed_),
+        multipliers(multipliers_),
         loads(std::move(loads_)),
         external(phase.shared_distribution(), n_fields),
         position(next.position),
@@ -53,6 +56,9 @@ struct MonolithicSolver<Model, Integrator>::System
   {
     position     = interpolate(stage.alpha_f, old.position, next.position);
     acceleration = interpolate(stage.alpha_m, old.acceleration, next.acceleration);
+    // A multiplier has no history: that of the step acts at the level of the balance (theory G.4).
+    for (const int a : multipliers)
+      position.local()[a * spacedim] = next.position.local()[a * spacedim];
   }
 
   BalanceLevel level() const { return {position, acceleration, phase}; }
@@ -60,9 +66,16 @@ struct MonolithicSolver<Model, Integrator>::System
   /// Adds the increment; the phase part is scaled down to @p largest_phase_step.
   void advance(double largest_phase_step)
   {
-    const auto d    = increment.local();
-    const auto n    = static_cast<std::size_t>(phase.distribution().n_local());
-    double     peak = 0.;
+    const auto          d    = increment.local();
+    const auto          n    = static_cast<std::size_t>(phase.distribution().n_local());
+    double              peak = 0.;
+    std::vector<double> of_multipliers; // they have no rates
+    for (const int a : multipliers)
+      {
+        next.position.local()[a * spacedim] += d[a * n_fields];
+        of_multipliers.push_back(std::exchange(d[a * n_fields + spacedim], 0.));
+        d[a * n_fields] = 0.;
+      }
     for (std::size_t a = 0; a < n; ++a)
       peak = std::max(peak, std::abs(d[a * n_fields + spacedim]));
     MPI_Allreduce(MPI_IN_PLACE, &peak, 1, MPI_DOUBLE, MPI_MAX, phase.distribution().comm());
@@ -73,6 +86,8 @@ struct MonolithicSolver<Model, Integrator>::System
           move(stage, next, a * spacedim + c, d[a * n_fields + c] / stage.alpha_f);
         phase.local()[a] += scale * d[a * n_fields + spacedim];
       }
+    for (std::size_t k = 0; k < multipliers.size(); ++k)
+      phase.local()[multipliers[k]] += scale * of_multipliers[k];
     update_levels();
     has_tangent = false;
   }
@@ -100,6 +115,8 @@ void MonolithicSolver<Model, Integrator>::rebuild(const StateType &state)
   assembler_.emplace(*model_, *space_, state.distribution, supported_->ties());
   matrix_.emplace(assembler_->make_matrix());
   linear_solver_.forget();
+  kept_.reset();
+  last_residuals_.clear();
   total_force_.reset();
 }
 
@@ -109,6 +126,7 @@ typename MonolithicSolver<Model, Integrator>::Norms MonolithicSolver<Model, Inte
 {
   const auto timing = timers_.measure("assembly");
   Vector     force(assembler_->distribution(), n_fields);
+  kept_.reset();
   assembler_->linearise(system.level(), system.history, system.stage.mass_weight(), tangent, system.loads, force,
                         system.external, *matrix_);
   system.has_tangent = tangent == PhaseTangent::consistent;
@@ -118,7 +136,7 @@ typename MonolithicSolver<Model, Integrator>::Norms MonolithicSolver<Model, Inte
 template <class Model, TimeIntegrator Integrator>
 typename MonolithicSolver<Model, Integrator>::Norms MonolithicSolver<Model, Integrator>::evaluate(System &system)
 {
-  const auto timing = timers_.measure("assembly");
+  const auto timing = timers_.measure("residual");
   Vector     force(assembler_->distribution(), n_fields);
   assembler_->force(system.level(), system.history, system.loads, force, system.external);
   return balance(system, std::move(force));
@@ -129,12 +147,20 @@ typename MonolithicSolver<Model, Integrator>::Norms MonolithicSolver<Model, Inte
                                                                                                  Vector  force)
 {
   // Squared norms over the owned unknowns: residual, load, reaction of the supports, inertia (lumped).
-  double       sums[4]  = {0., 0., 0., 0.};
-  double       peaks[2] = {0., 0.}; // scaled phase residual, extent of the body
-  const int    n_owned  = assembler_->distribution()->n_owned();
-  const double nan      = std::numeric_limits<double>::quiet_NaN();
+  const auto &interfaces = assembler_->interfaces();
+  double      sums[4]    = {0., 0., 0., 0.};
+  double      peaks[5]   = {0., 0., interfaces.sensitivity(), 0., 0.}; // scaled phase residual, extent of the body,
+                                                                       // sensitivity, defects of multipliers
+  const int    n_owned = assembler_->distribution()->n_owned();
+  const double nan     = std::numeric_limits<double>::quiet_NaN();
   for (int i = 0; i < n_owned; ++i)
     {
+      if (interfaces.is_multiplier(i))
+        {
+          for (int k = i * n_fields; k < (i + 1) * n_fields; ++k)
+            system.residual.local()[k] = system.fixed[k] ? 0. : -force.local()[k];
+          continue;
+        }
       for (int c = 0; c < spacedim; ++c)
         {
           const int    k        = i * n_fields + c;
@@ -156,19 +182,26 @@ typename MonolithicSolver<Model, Integrator>::Norms MonolithicSolver<Model, Inte
       if (std::isnan(scaled))
         sums[0] = nan;
     }
+  const auto defects = interfaces.defects(system.residual);
+  if (std::isnan(defects.angle + defects.phase))
+    sums[0] = nan;
+  peaks[3] = defects.angle;
+  peaks[4] = defects.phase;
   MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, assembler_->distribution()->comm());
-  MPI_Allreduce(MPI_IN_PLACE, peaks, 2, MPI_DOUBLE, MPI_MAX, assembler_->distribution()->comm());
+  MPI_Allreduce(MPI_IN_PLACE, peaks, 5, MPI_DOUBLE, MPI_MAX, assembler_->distribution()->comm());
   total_force_ = std::move(force);
 
-  // Membrane forces cancel to rounding of the coordinates; below that a relative residual has no meaning.
+  // Membrane forces and those of penalties cancel to rounding of the coordinates; below that a relative residual has no
+  // meaning.
   const double n_unknowns = static_cast<double>(spacedim) * space_->surface().n_control_points();
-  const double floor = 100. * std::numeric_limits<double>::epsilon() * (model_->split.bulk() + model_->split.shear()) *
-                       peaks[1] * std::sqrt(n_unknowns);
+  const double floor      = 100. * std::numeric_limits<double>::epsilon() *
+                       (model_->split.bulk() + model_->split.shear() + peaks[2]) * peaks[1] * std::sqrt(n_unknowns);
   const double reference = std::sqrt(std::max({sums[1], sums[2], sums[3]}));
   const double allowed   = settings_.displacement_tolerance * reference + floor;
   if (!std::isfinite(sums[0] + sums[1] + sums[2] + sums[3]))
     return {nan, nan};
-  return {std::sqrt(sums[0]) / allowed, peaks[0] / settings_.phase_tolerance};
+  return {std::max(std::sqrt(sums[0]) / allowed, peaks[3] / settings_.displacement_tolerance),
+          std::max(peaks[0], peaks[4]) / settings_.phase_tolerance};
 }
 
 template <class Model, TimeIntegrator Integrator>
@@ -177,8 +210,18 @@ void MonolithicSolver<Model, Integrator>::solve_increment(System &system, Result
   SolveReport report;
   {
     const auto timing = timers_.measure("solve");
-    decouple_rows(*matrix_, system.fixed);
-    report = linear_solver_.solve(*matrix_, system.residual, system.increment);
+    if (kept_)
+      {
+        report       = linear_solver_.solve_again(*matrix_, system.residual, system.increment);
+        kept_->fresh = false;
+      }
+    else
+      {
+        decouple_rows(*matrix_, system.fixed);
+        report = linear_solver_.solve(*matrix_, system.residual, system.increment);
+        if (system.has_tangent)
+          kept_ = KeptTangent{system.stage.mass_weight(), std::numeric_limits<double>::infinity(), true};
+      }
     supported_->complete(system.increment);
   }
   timers_.reassign("solve", "preconditioner", report.setup_seconds);
@@ -187,47 +230,88 @@ void MonolithicSolver<Model, Integrator>::solve_increment(System &system, Result
     result.messages.push_back(report.message);
 }
 
-template <class Model, TimeIntegrator Integrator>
-bool MonolithicSolver<Model, Integrator>::expects_convergence(const std::vector<double> &residuals) const
+namespace internal
 {
-  // Residuals fall quadratically, r_next = r (r / r_before)^2, until the linear solver's tolerance limits them.
+/// A residual of so many times the tolerance is expected to have converged.
+inline constexpr double surely_converged = .5;
+} // namespace internal
+
+template <class Model, TimeIntegrator Integrator>
+bool MonolithicSolver<Model, Integrator>::kept_tangent_suffices(double residual) const
+{
+  return kept_ && residual * kept_->contraction <= internal::surely_converged;
+}
+
+template <class Model, TimeIntegrator Integrator>
+void MonolithicSolver<Model, Integrator>::observe(const std::vector<double> &residuals)
+{
+  // Newton's error falls from e to e' = C e^2 / 2; the same tangent takes it from there to C e e' = (2 e' / e) e'.
   const auto n = residuals.size();
-  if (n < 2)
-    return false;
-  const double rate = residuals[n - 1] / residuals[n - 2];
-  return residuals[n - 1] * std::max(rate * rate, settings_.linear.tolerance) <= .5;
+  if (kept_ && n > 1)
+    kept_->contraction =
+        std::max((kept_->fresh ? 2. : 1.) * residuals[n - 1] / residuals[n - 2], settings_.linear.tolerance);
+}
+
+template <class Model, TimeIntegrator Integrator>
+bool MonolithicSolver<Model, Integrator>::expects_use_of_kept_tangent(const std::vector<double> &residuals) const
+{
+  // Residuals fall quadratically, r_next = r (r / r_before)^2, until the linear solver's tolerance limits them; the
+  // first two are expected to be those of the step before.
+  const auto n    = residuals.size();
+  const auto last = [&](std::size_t i) {
+    return i < last_residuals_.size() ? last_residuals_[i] : std::numeric_limits<double>::infinity();
+  };
+  if (n == 0)
+    return kept_tangent_suffices(last(0));
+  const double rate     = n == 1 ? last(1) / last(0) : std::pow(residuals[n - 1] / residuals[n - 2], 2);
+  const double factor   = std::max(rate, settings_.linear.tolerance);
+  const double expected = residuals[n - 1] * factor;
+  return expected <= internal::surely_converged || (kept_ && expected * 2. * factor <= internal::surely_converged);
 }
 
 template <class Model, TimeIntegrator Integrator>
 bool MonolithicSolver<Model, Integrator>::iterate(System &system, Result &result)
 {
-  double              early = 0.;
+  double              early           = 0.;
+  int                 n_tangents      = 0;
+  bool                by_kept_tangent = false; // the increment that led to this iterate
   std::vector<double> residuals;
+  if (kept_ && kept_->mass_weight != system.stage.mass_weight())
+    kept_.reset();
   for (int i = 0;; ++i)
     {
-      // Where this iterate should have converged its tangent is most likely not needed.
-      Norms norms = expects_convergence(residuals) ? evaluate(system) : linearise(system, PhaseTangent::consistent);
-      if (norms.larger() > 1. && !system.has_tangent)
-        norms = linearise(system, PhaseTangent::consistent);
+      // Where this iterate should have converged, or one more solve with the tangent at hand will do, its own tangent
+      // is most likely not needed.
+      Norms norms =
+          expects_use_of_kept_tangent(residuals) ? evaluate(system) : linearise(system, PhaseTangent::consistent);
       residuals.push_back(norms.larger());
+      observe(residuals);
+      if (norms.larger() > 1. && !system.has_tangent && !kept_tangent_suffices(norms.larger()))
+        linearise(system, PhaseTangent::consistent);
       result.residuals.push_back(norms.larger());
       if (!std::isfinite(norms.larger()))
         result.failure = "the residual is not finite after " + std::to_string(i) + " Newton iterations";
       else if (norms.larger() <= 1.)
-        return true;
+        {
+          result.newton += by_kept_tangent;
+          last_residuals_ = std::move(residuals);
+          return true;
+        }
       else if (i <= 3)
         early = norms.larger();
       else if (norms.larger() > settings_.divergence * early)
         result.failure = "Newton's iteration diverges";
-      if (result.failure.empty() && i == settings_.max_iterations)
-        result.failure = "no convergence in " + std::to_string(i) + " Newton iterations (residuals " +
+      if (result.failure.empty() && system.has_tangent && n_tangents == settings_.max_iterations)
+        result.failure = "no convergence in " + std::to_string(n_tangents) + " Newton iterations (residuals " +
                          std::to_string(norms.displacement) + " and " + std::to_string(norms.phase) +
                          " times the tolerances of displacement and phase)";
       if (!result.failure.empty())
         return false;
+      by_kept_tangent = !system.has_tangent;
+      n_tangents += system.has_tangent;
+      result.newton += system.has_tangent;
       solve_increment(system, result);
       system.advance(std::numeric_limits<double>::infinity());
-      ++result.newton;
     }
 }
 
@@ -240,8 +324,10 @@ void MonolithicSolver<Model, Integrator>::leave_false_branch(System &system, con
   constexpr double close_enough = 100.;
   ++result.switched;
   system.phase = start;
-  std::vector<int> everywhere(assembler_->distribution()->n_owned());
-  std::iota(everywhere.begin(), everywhere.end(), 0);
+  std::vector<int> everywhere;
+  for (int a = 0; a < assembler_->distribution()->n_owned(); ++a)
+    if (!assembler_->interfaces().is_multiplier(a))
+      everywhere.push_back(a);
   for (int i = 0; i < settings_.max_switch_iterations; ++i)
     {
       const Norms norms = linearise(system, PhaseTangent::switched);
@@ -326,7 +412,7 @@ MonolithicSolver<Model, Integrator>::attempt(const StateType &state, double dt)
     phase.local()[a] += dt / previous_dt * (state.phase.local()[a] - state.previous_phase.local()[a]);
 
   System system(stage, old, std::move(next), std::move(phase), state.history, supported_->fixed(),
-                assembler_->evaluate(*loads_, state.time + stage.alpha_f * dt));
+                assembler_->interfaces().multipliers(), assembler_->evaluate(*loads_, state.time + stage.alpha_f * dt));
   Result result;
   if (!find_stable_state(system, result))
     return result;
@@ -368,10 +454,12 @@ void MonolithicSolver<Model, Integrator>::equilibrate_phase(StateType &state)
   supported_->complete_phase(state.phase);
   const Motion frozen{state.position, state.velocity, state.acceleration};
   const Stage  here{1., 1., 1., 1., 1.};
-  System       system(here, frozen, frozen, state.phase, state.history, fixed, {});
-  Result       result;
+  System system(here, frozen, frozen, state.phase, state.history, fixed, assembler_->interfaces().multipliers(), {});
+  Result result;
+  kept_.reset();
   if (!find_stable_state(system, result))
     throw NoConvergence("initial phase field: " + result.failure);
+  kept_.reset();
   state.phase          = system.phase;
   state.previous_phase = system.phase;
 }
@@ -387,15 +475,21 @@ void MonolithicSolver<Model, Integrator>::set_initial_acceleration(StateType &st
   const BalanceLevel level{state.position, zero, state.phase};
   assembler_->force(level, state.history, force);
   assembler_->external_force(level, assembler_->evaluate(*loads_, state.time), residual);
+  const auto &interfaces = assembler_->interfaces();
   for (std::size_t k = 0; k < residual.owned().size(); ++k)
-    residual.local()[k] =
-        supported_->fixed()[k] || k % n_fields == spacedim ? 0. : residual.local()[k] - force.local()[k];
+    residual.local()[k] = supported_->fixed()[k] || k % n_fields == spacedim || interfaces.is_multiplier(k / n_fields)
+                              ? 0.
+                              : residual.local()[k] - force.local()[k];
+  kept_.reset();
   assembler_->mass_matrix(*matrix_);
+  interfaces.constrain_acceleration(state.position, *matrix_);
   decouple_rows(*matrix_, supported_->fixed());
   auto settings      = settings_.linear;
   settings.tolerance = 1e-12;
   LinearSolver(settings).solve(*matrix_, residual, acceleration);
   supported_->complete(acceleration);
+  for (const int a : interfaces.multipliers())
+    state.position.local()[a * spacedim] += std::exchange(acceleration.local()[a * n_fields], 0.);
   for (int a = 0; a < assembler_->distribution()->n_local(); ++a)
     for (int c = 0; c < spacedim; ++c)
       state.acceleration.local()[a * spacedim + c] = acceleration.local()[a * n_fields + c];

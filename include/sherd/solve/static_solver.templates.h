@@ -96,30 +96,37 @@ template <class Model>
 auto StaticSolver<Model>::measure(const StateType &state, const Vector &internal, const Vector &external) const
     -> Residual
 {
-  Residual result{internal, 0., 0.};
-  double   sums[3] = {0., 0., 0.}; // residual, load, reaction
-  double   extent  = 0.;
+  Residual    result{internal, 0., 0.};
+  double      sums[3]  = {0., 0., 0.};                                     // residual, load, reaction
+  double      peaks[3] = {0., assembler_->interfaces().sensitivity(), 0.}; // extent, sensitivity, defect of multipliers
+  const auto &interfaces = assembler_->interfaces();
   for (std::size_t k = 0; k < fixed_.size(); ++k)
     {
-      const bool   displacement = k % n_fields < spacedim;
+      const bool   displacement = k % n_fields < spacedim && !interfaces.is_multiplier(k / n_fields);
       const double r            = external.local()[k] - internal.local()[k];
       result.free.local()[k]    = fixed_[k] ? 0. : r;
       if (!displacement)
         continue;
       sums[fixed_[k] ? 2 : 0] += r * r;
       sums[1] += external.local()[k] * external.local()[k];
-      extent = std::max(extent, std::abs(state.position.local()[k / n_fields * spacedim + k % n_fields]));
+      peaks[0] = std::max(peaks[0], std::abs(state.position.local()[k / n_fields * spacedim + k % n_fields]));
     }
   const auto comm = assembler_->distribution()->comm();
+  peaks[2]        = interfaces.defects(result.free).angle;
+  if (std::isnan(peaks[2]))
+    sums[1] = peaks[2];
   MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, comm);
-  MPI_Allreduce(MPI_IN_PLACE, &extent, 1, MPI_DOUBLE, MPI_MAX, comm);
-  result.norm = std::isfinite(sums[1] + sums[2]) ? std::sqrt(sums[0]) : std::numeric_limits<double>::quiet_NaN();
+  MPI_Allreduce(MPI_IN_PLACE, peaks, 3, MPI_DOUBLE, MPI_MAX, comm);
 
-  // Membrane forces cancel to rounding of the coordinates; below that a relative residual has no meaning (theory F.2).
+  // Membrane forces and those of penalties cancel to rounding of the coordinates; below that a relative residual has no
+  // meaning (theory F.2).
   const double n_unknowns = static_cast<double>(spacedim) * space_->surface().n_control_points();
-  const double floor = 10. * std::numeric_limits<double>::epsilon() * (model_->split.bulk() + model_->split.shear()) *
-                       extent * std::sqrt(n_unknowns);
+  const double floor      = 10. * std::numeric_limits<double>::epsilon() *
+                       (model_->split.bulk() + model_->split.shear() + peaks[1]) * peaks[0] * std::sqrt(n_unknowns);
   result.allowed = settings_.tolerance * std::sqrt(std::max(sums[1], sums[2])) + floor;
+  result.norm    = std::isfinite(sums[1] + sums[2])
+                       ? std::max(std::sqrt(sums[0]), peaks[2] / settings_.tolerance * result.allowed)
+                       : std::numeric_limits<double>::quiet_NaN();
   return result;
 }
 

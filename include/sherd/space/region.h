@@ -42,7 +42,8 @@ struct Region
 /// "edge \"top\"", "corner of \"left\" and \"top\"", "patch 2", "the whole surface".
 std::string describe(const Region &region);
 
-/// Control points of @p region, surface numbering: those that act on an edge, the one of a corner, all of a patch.
+/// Control points of @p region, surface numbering, each once: those that act on an edge, the one of a corner, all of a
+/// patch.
 /// @throws InvalidParameter   unknown edge; edges that do not meet in one corner; a patch that does not exist
 template <int degree, int spacedim>
 std::vector<int> points_of(const Region &region, const Surface<degree, spacedim> &surface);

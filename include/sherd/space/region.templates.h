@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include <sherd/space/region.h>
 
@@ -12,6 +13,17 @@ namespace sherd
 namespace internal
 {
 
+/// @p points, each where it comes first.
+inline std::vector<int> first_of_each(std::span<const int> points, int n_control_points)
+{
+  std::vector<int>  result;
+  std::vector<char> found(n_control_points, 0);
+  for (const int point : points)
+    if (!std::exchange(found[point], 1))
+      result.push_back(point);
+  return result;
+}
+
 /// Control points in which sides of two lists meet; two sides of one patch meet if they run in different directions.
 template <int degree, int spacedim>
 std::set<int> corner_points(const Surface<degree, spacedim> &surface, const std::vector<Edge> &first,
@@ -20,7 +32,7 @@ std::set<int> corner_points(const Surface<degree, spacedim> &surface, const std:
   std::set<int> corners;
   for (const auto &a : first)
     for (const auto &b : second)
-      if (a.patch == b.patch && normal_direction(a.side) != normal_direction(b.side))
+      if (a.patch != b.patch || normal_direction(a.side) != normal_direction(b.side))
         {
           auto on_a = points_along(surface, a), on_b = points_along(surface, b);
           std::sort(on_a.begin(), on_a.end());
@@ -58,22 +70,21 @@ std::vector<int> points_of(const Region &region, const Surface<degree, spacedim>
       for (const auto &side : surface.edge(*edge))
         for (const int point : points_along(surface, side))
           points.push_back(point);
-      return points;
+      return internal::first_of_each(points, surface.n_control_points());
     }
   if (const auto *corner = std::get_if<Corner>(&region.part))
     return {internal::corner_point(*corner, surface)};
 
-  int first = 0, last = surface.n_control_points();
   if (const auto *patch = std::get_if<PatchRegion>(&region.part))
     {
       if (patch->patch < 0 || patch->patch >= surface.n_patches())
         throw InvalidParameter("support: there is no patch " + std::to_string(patch->patch) + ", expected 0 to " +
                                std::to_string(surface.n_patches() - 1));
-      first = surface.point_offset(patch->patch);
-      last  = surface.point_offset(patch->patch + 1);
+      const auto points = surface.points_of_patch(patch->patch);
+      return internal::first_of_each(points, surface.n_control_points());
     }
-  std::vector<int> points(last - first);
-  std::iota(points.begin(), points.end(), first);
+  std::vector<int> points(surface.n_control_points());
+  std::iota(points.begin(), points.end(), 0);
   return points;
 }
 

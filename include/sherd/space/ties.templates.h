@@ -21,24 +21,21 @@ std::vector<Tie> level_ties(const Surface<degree, spacedim> &surface, const Edge
   using Key          = typename internal::FirstRow<degree>::Key;
   const auto &patch  = surface.patch(edge.patch);
   const int   normal = internal::normal_direction(edge.side);
-  const int   offset = surface.point_offset(edge.patch);
   // The knot that ends the first span of a function with m knots on the side.
-  const auto span_end = [&](int point, int m) {
-    return patch.basis.function(point - offset).knots[normal][internal::at_maximum(edge.side) ? degree + 1 - m : m];
+  const auto span_end = [&](int function, int m) {
+    return patch.basis.function(function).knots[normal][internal::at_maximum(edge.side) ? degree + 1 - m : m];
   };
-  const auto along  = [&](int point) { return patch.basis.function(point - offset).knots[1 - normal]; };
-  const auto weight = [&](int point) {
-    return patch.weights[point - offset] * patch.basis.function(point - offset).gamma;
-  };
+  const auto along  = [&](int function) { return patch.basis.function(function).knots[1 - normal]; };
+  const auto weight = [&](int function) { return patch.weights[function] * patch.basis.function(function).gamma; };
 
   const internal::FirstRow<degree> row(patch.basis, edge.side);
-  const auto                       slaves = points_along(surface, edge);
+  const auto                       slaves = internal::functions_of_multiplicity(patch.basis, edge.side, degree + 1);
   std::map<Key, std::size_t>       slave_of;
   for (std::size_t i = 0; i < slaves.size(); ++i)
     slave_of[{row.depth(span_end(slaves[i], degree + 1)), along(slaves[i])}] = i;
 
   std::vector<std::map<int, double>> slopes(slaves.size()); // of the masters' parts, w_j gamma_j beta_ij / a_j
-  for (const int master : second_row_along(surface, edge))
+  for (const int master : internal::functions_of_multiplicity(patch.basis, edge.side, degree))
     {
       const double a = row.depth(span_end(master, degree));
       for (const auto &[key, beta] : row.split({a, along(master)}))
@@ -46,7 +43,8 @@ std::vector<Tie> level_ties(const Surface<degree, spacedim> &surface, const Edge
           const auto slave = slave_of.find(key);
           if (slave == slave_of.end())
             throw Error("ties: on a side of patch " + std::to_string(edge.patch) + " the second row at control point " +
-                        std::to_string(master) + " is no sum of first-row functions; refine the edge evenly");
+                        std::to_string(surface.point(edge.patch, master)) +
+                        " is no sum of first-row functions; refine the edge evenly");
           slopes[slave->second][master] += weight(master) * beta / a;
         }
     }
@@ -63,11 +61,14 @@ std::vector<Tie> level_ties(const Surface<degree, spacedim> &surface, const Edge
       least              = std::min(least, kappa);
       greatest           = std::max(greatest, kappa);
       scale              = std::max(scale, own);
-      Tie tie{slaves[i], field, {}, {}};
+      std::map<int, double> factors; // by control points, ascending
       for (const auto &[master, slope] : slopes[i])
+        factors[surface.point(edge.patch, master)] += slope / sum;
+      Tie tie{surface.point(edge.patch, slaves[i]), field, {}, {}};
+      for (const auto &[master, factor] : factors)
         {
           tie.masters.push_back(master);
-          tie.factors.push_back(slope / sum);
+          tie.factors.push_back(factor);
         }
       result.push_back(std::move(tie));
     }
@@ -142,16 +143,21 @@ std::vector<Tie> ties(const Supports &supports, const Surface<degree, spacedim> 
           }
       }
 
-  auto       result  = resolve(all, held, n_fields);
-  const auto support = [&](int point) {
-    const auto [p, local] = surface.locate_point(point);
-    return std::pair(p, surface.patch(p).basis.function(local).support());
+  auto result = resolve(all, held, n_fields);
+  // On each patch of the slave the master has a function that covers its elements.
+  const auto covers = [&](int master, int slave) {
+    const auto inner = surface.locations_of(slave), outer = surface.locations_of(master);
+    return std::all_of(inner.begin(), inner.end(), [&](const auto &i) {
+      return std::any_of(outer.begin(), outer.end(), [&](const auto &o) {
+        const auto &basis = surface.patch(i.patch).basis;
+        return o.patch == i.patch && contains(basis.function(o.local).support(), basis.function(i.local).support());
+      });
+    });
   };
   for (const auto &tie : result)
     for (const int master : tie.masters)
       {
-        const auto inner = support(tie.point), outer = support(master);
-        if (inner.first != outer.first || !contains(outer.second, inner.second))
+        if (!covers(master, tie.point))
           throw Error("ties: control point " + std::to_string(tie.point) + " follows control point " +
                       std::to_string(master) +
                       ", whose function does not cover the elements of the first; refine the edge evenly");

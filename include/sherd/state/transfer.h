@@ -43,8 +43,26 @@ std::array<int, degree + 1> nearest_quadrature_points(double parent_min, double 
   return nearest;
 }
 
+/// Multipliers on the pieces of a refined surface: each the value of the old piece that contains it.
+inline Multipliers transfer(const Multipliers &old, std::vector<InterfacePiece> pieces)
+{
+  Multipliers result{std::move(pieces), {}};
+  result.values.resize(static_cast<Eigen::Index>(result.pieces.size()), 3);
+  std::size_t parent = 0;
+  for (std::size_t k = 0; k < result.pieces.size(); ++k)
+    {
+      // Both lists are ordered by interface and parameter, and pieces are never joined.
+      const auto &piece = result.pieces[k];
+      while (parent + 1 < old.pieces.size() &&
+             (old.pieces[parent].interface < piece.interface || old.pieces[parent].range[0][1] <= piece.range[0][0]))
+        ++parent;
+      result.values.row(static_cast<Eigen::Index>(k)) = old.values.row(static_cast<Eigen::Index>(parent));
+    }
+  return result;
+}
+
 /// Carries a state through a refinement: the control values exactly (they are the same functions), the history of each
-/// new quadrature point from the nearest one of its parent element.
+/// new quadrature point from the nearest one of its parent element, multipliers from the piece that contains theirs.
 ///
 /// @param boxes    of the old elements
 /// @param surface  after the refinement
@@ -61,6 +79,9 @@ GlobalState<degree, spacedim> transfer(const GlobalState<degree, spacedim> &old,
   result.acceleration   = refinement.transfer.apply(old.acceleration);
   result.phase          = refinement.transfer.apply(old.phase);
   result.previous_phase = refinement.transfer.apply(old.previous_phase);
+
+  if (!old.multipliers.pieces.empty())
+    result.multipliers = transfer(old.multipliers, interface_pieces(surface));
 
   const auto children = element_boxes(surface);
   result.history.resize(children.size(), Global::n_q);

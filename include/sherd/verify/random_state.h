@@ -71,7 +71,31 @@ inline Voigt components(const Eigen::Matrix2d &T, const Eigen::Matrix2d &tangent
   const Eigen::Matrix2d product = tangents.transpose() * T * tangents;
   return {product(0, 0), product(1, 1), product(0, 1)};
 }
+
+inline Voigt reparametrised(const Voigt &T, const Eigen::Matrix2d &R)
+{
+  return components(Eigen::Matrix2d{{T[0], T[2]}, {T[2], T[1]}}, R);
+}
 } // namespace internal
+
+/// Random change of the parametric coordinates: columns are the new tangents in terms of the old ones.
+inline Eigen::Matrix2d random_parametrisation(RandomNumbers &random)
+{
+  Eigen::Matrix2d stretch;
+  stretch << random(.6, 1.6), random(-.5, .5), 0., random(.6, 1.6);
+  return Eigen::Rotation2Dd(random(0., 6.)).toRotationMatrix() * stretch;
+}
+
+/// The same deformation in other parametric coordinates.
+inline MetricState reparametrised(const MetricState &state, const Eigen::Matrix2d &R)
+{
+  return {internal::reparametrised(state.reference, R), internal::reparametrised(state.current, R)};
+}
+inline ShellState reparametrised(const ShellState &state, const Eigen::Matrix2d &R)
+{
+  return {internal::reparametrised(state.reference, R), internal::reparametrised(state.current, R),
+          internal::reparametrised(state.reference_curvature, R), internal::reparametrised(state.current_curvature, R)};
+}
 
 /// Random deformation with strains of order 0.1 around the surface stretch J_mean. J differs from J_mean by a few per
 /// cent at most, so that the sign of J - 1 is known for J_mean outside [0.9, 1.1].

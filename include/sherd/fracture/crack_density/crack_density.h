@@ -7,14 +7,24 @@ namespace sherd
 
 /// Energy density of a smeared crack by reference area, theory C.1:
 ///
-///   Psi_frac = Gc / (4 l0) [(phi - 1)^2 + c1 |grad phi|^2 + c2 (lap phi)^2],
+///   Psi_frac = Gc / (4 l0) [w(phi) + c1 |grad phi|^2 + c2 (lap phi)^2],
 ///
-/// with gradient and Laplacian on the reference surface. c1 [length^2], c2 [length^4] are such that a straight crack
-/// of unit length costs exactly Gc. `order` is that of its Euler-Lagrange equation; a density of order 2 has c2 = 0 and
-/// needs no Laplacian. profile(r) is the phase at distance r l0 from a crack in an infinite body.
+/// with gradient and Laplacian on the reference surface. local(phi) is w, the price of damage at a point: zero and
+/// least at phi = 1; local_first and local_second are its derivatives. c1 [length^2], c2 [length^4] are such that a
+/// straight crack of unit length costs exactly Gc. `order` is that of its Euler-Lagrange equation; a density of order 2
+/// has c2 = 0 and needs no Laplacian. profile(r) is the phase at distance r l0 from a crack in an infinite body.
 template <class Density>
 concept CrackDensity = requires(const Density &density, const double x)
 {
+  {
+    density.local(x)
+    } -> std::same_as<double>;
+  {
+    density.local_first(x)
+    } -> std::same_as<double>;
+  {
+    density.local_second(x)
+    } -> std::same_as<double>;
   {
     density.c1(x)
     } -> std::same_as<double>;
@@ -37,7 +47,19 @@ inline double crack_energy(const Density &density, const double Gc, const double
                            const double gradient_squared, const double laplacian)
 {
   return Gc / (4. * l0) *
-         ((phi - 1.) * (phi - 1.) + density.c1(l0) * gradient_squared + density.c2(l0) * laplacian * laplacian);
+         (density.local(phi) + density.c1(l0) * gradient_squared + density.c2(l0) * laplacian * laplacian);
 }
 
+namespace crack_density
+{
+
+/// w = (phi - 1)^2, of the densities of second and fourth order: damage begins with the first load.
+struct QuadraticLocal
+{
+  double local(const double phi) const { return (phi - 1.) * (phi - 1.); } ///< w
+  double local_first(const double phi) const { return 2. * (phi - 1.); }   ///< w'
+  double local_second(const double) const { return 2.; }                   ///< w''
+};
+
+} // namespace crack_density
 } // namespace sherd

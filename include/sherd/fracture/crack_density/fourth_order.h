@@ -10,7 +10,7 @@ namespace sherd::crack_density
 /// Fourth-order density, theory C.1; paper Eq. (6). Needs C^1 shape functions.
 ///
 /// Its profile is smooth at the crack, and phi may leave [0, 1] slightly: there is no maximum principle.
-struct FourthOrder
+struct FourthOrder : QuadraticLocal
 {
   static constexpr int order = 4;
 

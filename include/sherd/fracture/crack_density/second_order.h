@@ -8,7 +8,7 @@ namespace sherd::crack_density
 {
 
 /// Second-order density (AT2), theory C.1. Its profile has a kink at the crack; phi stays in [0, 1].
-struct SecondOrder
+struct SecondOrder : QuadraticLocal
 {
   static constexpr int order = 2;
 

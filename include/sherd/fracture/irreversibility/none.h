@@ -13,6 +13,10 @@ struct None
 {
   double trial(const double, const double energy) const { return energy; }
   bool   is_loading(const double, const double) const { return true; }
+  double resistance(const double, const double) const { return 0.; }
+  double resistance_stiffness(const double, const double) const { return 0.; }
+  double commit(const double, const double, const double) const { return 0.; }
+  double initial(const double, const double) const { return 0.; }
 };
 
 static_assert(Irreversibility<None>);

@@ -2,7 +2,10 @@
 
 #include <sherd/material/bending.h>
 #include <sherd/material/neo_hooke.h>
+#include <sherd/material/sheet.h>
 #include <sherd/material/split/split.h>
+
+#include <concepts>
 
 namespace sherd::split
 {
@@ -13,6 +16,14 @@ class None
 {
 public:
   explicit None(const Membrane &membrane, const Bending &bending = {}) : membrane_(membrane), bending_(bending) {}
+
+  /// A shell of which everything is known.
+  /// @throws InvalidParameter  for constants that are not positive and finite.
+  explicit None(const material::Sheet &sheet) requires(
+      std::constructible_from<Membrane, material::Moduli> &&std::constructible_from<Bending, material::Sheet>)
+      : None(Membrane(sheet.moduli), Bending(sheet))
+  {
+  }
 
   const Membrane &membrane() const { return membrane_; }
   const Bending  &bending() const { return bending_; }

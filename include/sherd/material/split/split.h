@@ -21,6 +21,15 @@ struct SplitResponse
   Stress<spacedim>  driving; ///< derivative of energy_active, which couples phase to deformation (theory E.2)
 };
 
+/// The response of a surface that is stiffer by a factor.
+template <int spacedim>
+inline SplitResponse<spacedim> operator*(const double factor, const SplitResponse<spacedim> &response)
+{
+  return {factor * response.energy_active,  factor * response.energy_passive, factor * response.stress_active,
+          factor * response.stress_passive, factor * response.tangent_active, factor * response.tangent_passive,
+          factor * response.driving};
+}
+
 /// Stress of the damaged surface.
 /// @param g  degradation at the point.
 template <int spacedim>

@@ -1,0 +1,129 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <sherd/algebra/matrix.h>
+#include <sherd/algebra/vector.h>
+#include <sherd/assembly/tie_transfers.h>
+#include <sherd/forms/interface_angle.h>
+#include <sherd/forms/interface_phase.h>
+#include <sherd/space/shell_space.h>
+
+namespace sherd
+{
+
+/// Continuity across the interfaces of a surface, by penalty or by multipliers as the space says (theory G): of the
+/// angle between patches where the shell has a bending stiffness, of the phase field where its density is of fourth
+/// order.
+///
+/// A multiplier point has a block of n_fields entries. Entry 0 of its position is the multiplier q of the angle, its
+/// phase value is that of the phase; the others are not used and have the equation dx = 0. Multipliers are slightly
+/// compliant, K_qq = -int dS/eps with eps of theory G.3 for beta = 1e8: the penalty of that factor, reached without its
+/// condition number. So constraints may depend on each other, as they do in corners (theory G.4).
+///
+/// The loops over interfaces are serial; they are few.
+template <class Model>
+class InterfaceTerms
+{
+public:
+  static constexpr int degree   = Model::degree;
+  static constexpr int spacedim = Model::spacedim;
+  static constexpr int n_fields = Model::n_fields;
+
+  /// beta that the compliance of multipliers stands for.
+  static constexpr double multiplier_factor = 1e8;
+
+  /// @param ties   of the surface of @p space
+  /// @throws InvalidParameter   a toughness that is not positive: on all ranks
+  InterfaceTerms(const Model &model, const ShellSpace<degree, spacedim> &space, const std::vector<Tie> &ties);
+
+  /// Adds the forces on the owned control points and the residuals of owned multipliers, block n_fields.
+  void add_force(const Vector &position, const Vector &phase, Vector &force) const;
+
+  /// The same and the tangent.
+  void linearise(const Vector &position, const Vector &phase, Vector &force, Matrix &matrix) const;
+
+  /// Gives a mass matrix the rows and columns of the multipliers that keep accelerations of a surface at rest
+  /// compatible with the angles.
+  void constrain_acceleration(const Vector &position, Matrix &mass) const;
+
+  /// Sets 1 on the diagonal of every entry of the multipliers.
+  void set_identity(Matrix &matrix) const;
+
+  /// Energy of the penalties, or int q g dS less that of the compliance, on the pieces that this rank owns.
+  double energy(const Vector &position, const Vector &phase) const;
+
+  /// Largest mean defects of the constraints over the pieces of this rank; zero without multipliers.
+  struct Defects
+  {
+    double angle = 0.; ///< |r_q| / length of the piece
+    double phase = 0.; ///< l0 |r_q| / length of the piece
+  };
+  Defects defects(const Vector &residual) const;
+
+  /// Local points that are multipliers, ghosts included.
+  const std::vector<int> &multipliers() const { return multipliers_; }
+
+  /// Whether a local point is a multiplier.
+  bool is_multiplier(int local) const { return is_multiplier_[local]; }
+
+  /// Forces that penalties make of a rounding error of the coordinates, per length of that error: the largest eps/h
+  /// [force/length] of this rank.
+  double sensitivity() const { return sensitivity_; }
+
+private:
+  struct Cell
+  {
+    InterfaceTables<degree, spacedim>     tables;
+    std::vector<int>                      points;    ///< local, a multiplier last
+    std::vector<int>                      positions; ///< of block (A, B) in the row of A, in blocks; row-major
+    bool                                  owned;
+    std::optional<TieTransfers<n_fields>> ties;
+    double                                angle_stiffness  = 0.; ///< eps; 0: no penalty
+    double                                angle_compliance = 0.; ///< -K_qq of the angle
+    double                                phase_compliance = 0.; ///< -K_qq of the phase
+    Eigen::MatrixXd                       phase_penalty;         ///< shape=(n, n) or empty
+    Eigen::VectorXd                       phase_jump;            ///< shape=(n) or empty
+
+    int  n() const { return static_cast<int>(tables.points.size()); }
+    bool has_multiplier() const { return static_cast<int>(points.size()) > n(); }
+    bool has_angle_multiplier() const { return angle_compliance > 0.; }
+    bool has_phase_multiplier() const { return phase_compliance > 0.; }
+  };
+
+  /// Arrays of a piece on its points, index point * n_fields + field.
+  struct Arrays
+  {
+    Eigen::VectorXd force;
+    Eigen::MatrixXd tangent;
+  };
+  enum class Part
+  {
+    force,
+    force_and_tangent,
+    constraint_rows ///< those of the angle in the tangent
+  };
+
+  ControlValues<spacedim> control_values(const Cell &cell, const Vector &position) const;
+  Eigen::VectorXd         phase_values(const Cell &cell, const Vector &phase) const;
+  Arrays                  arrays(const Cell &cell, const Vector &position, const Vector &phase, Part part) const;
+  void                    add_angle(const Cell &cell, const Vector &position, Part part, Arrays &arrays) const;
+  void                    add_phase(const Cell &cell, const Vector &phase, Part part, Arrays &arrays) const;
+  void                    scatter(const Cell &cell, const Eigen::VectorXd &from, Vector &force) const;
+  void                    scatter(const Cell &cell, const Eigen::MatrixXd &from, Matrix &matrix) const;
+
+  double            length_scale_;
+  int               n_owned_;
+  std::vector<Cell> cells_;
+  std::vector<int>  multipliers_;
+  std::vector<char> is_multiplier_; ///< shape=(n_local)
+  double            sensitivity_ = 0.;
+};
+
+} // namespace sherd
+
+#include <sherd/assembly/interface_terms.templates.h>

@@ -1,0 +1,252 @@
+// label: verification
+// ranks: 1 2 3
+#include <cstdlib>
+#include <map>
+
+#include <catch2/catch.hpp>
+
+#include <Eigen/LU>
+
+#include <assembly/body.h>
+#include <solve/linear_benchmarks.h>
+#include <sherd/geometry/shapes/sphere.h>
+#include <sherd/geometry/split.h>
+
+using namespace sherd;
+using namespace sherd::test;
+
+namespace
+{
+
+/// Deflection at the centre of a simply supported unit square with the energy (lap w)^2 / 2 (shear modulus next to
+/// zero) and unit load, of two patches that meet on the centre line, relative to the exact one. This energy does not
+/// resist torsion, so that the plate needs its continuity more than others.
+template <int degree>
+double plate_error(int n, const Continuity &continuity)
+{
+  constexpr double exact = .00406235, no_shear = 1e-6;
+  Supports         supports;
+  supports.fix(WholeSurface{}, Component::x);
+  supports.fix(WholeSurface{}, Component::y);
+  for (const auto edge : {"left", "right", "bottom", "top"})
+    supports.fix(edge, Component::z);
+  Loads<3> loads;
+  loads.surface_load([](const Point<3> &, double t) { return Point<3>(0., 0., t); });
+  const material::Moduli moduli{12. * (1. - no_shear), 12. * no_shear};
+  KoiterBody<degree>     body(
+          KoiterBody<degree>::make_model(material::StVenantKirchhoff(moduli), material::Koiter(moduli, 1.)),
+          split_patches(shapes::plate<degree, 3>({1., 1.}, {n, n}), {2, 1}), supports, loads, {}, continuity);
+  return body.displacement(body.solver.solve_linear(body.state, 1.), .5 * n, .5 * n)[2] / exact - 1.;
+}
+
+Continuity penalty(double factor)
+{
+  return continuity::Penalty{factor, factor};
+}
+
+const Continuity multiplier = continuity::LagrangeMultiplier{};
+
+/// Energy of a crack across a strip by its width and Gc, phase field and continuity together. The strip is 16 l0 long,
+/// of two patches that meet in the middle, where the phase is held at zero.
+double crack_on_interface(int elements_per_length_scale, const Continuity &continuity)
+{
+  constexpr double length = 16., width = .5;
+  const int        n       = static_cast<int>(length) * elements_per_length_scale;
+  const auto       surface = split_patches(shapes::plate<2, 2>({length, width}, {n, 1}), {2, 1});
+  Sheet            model   = sheet(1.);
+  model.length_scale       = 1.;
+  const ShellSpace<2, 2> space(Environment(MPI_COMM_SELF), surface, continuity);
+  State<2, 2>            state(space);
+  const Assembler<Sheet> assembler(model, space, state.distribution);
+  Vector                 force(state.distribution, 3);
+  Matrix                 matrix = assembler.make_matrix();
+  assembler.linearise({state.position, state.acceleration, state.phase}, state.history, 0., PhaseTangent::consistent,
+                      force, matrix);
+
+  // The energy is quadratic in phi - 1: its minimum among fields that are the same across the strip, as at the middle
+  // of a long crack, with given values on the interface. One column for each x, and one for the multiplier.
+  const Eigen::MatrixXd       all = dense(matrix)(Eigen::seq(2, Eigen::last, 3), Eigen::seq(2, Eigen::last, 3));
+  const auto                  X   = surface.control_points();
+  std::map<std::int64_t, int> columns;
+  const auto                  column = [&](int point) {
+    const std::int64_t key = space.is_multiplier(point) ? point : -std::llround(1e6 * X(point, 0)) - 1;
+    return columns.emplace(key, static_cast<int>(columns.size())).first->second;
+  };
+  for (int i = 0; i < space.n_points(); ++i)
+    column(i);
+  Eigen::MatrixXd same = Eigen::MatrixXd::Zero(space.n_points(), static_cast<Eigen::Index>(columns.size()));
+  for (int i = 0; i < space.n_points(); ++i)
+    same(i, column(i)) = 1.;
+  Eigen::MatrixXd K      = same.transpose() * all * same;
+  Eigen::VectorXd b      = Eigen::VectorXd::Zero(K.rows());
+  const int       middle = column(points_along(surface, surface.interfaces().front().first).front());
+  K.row(middle).setZero();
+  K(middle, middle)            = 1.;
+  b[middle]                    = -1.;
+  const Eigen::VectorXd change = same * K.partialPivLu().solve(b);
+  for (int a = 0; a < space.n_points(); ++a)
+    state.phase.local()[a] += change[state.distribution->global(a)];
+  const auto energies = assembler.energies(state.position, state.velocity, state.phase);
+  return (energies.fracture + energies.constraint) / width;
+}
+
+/// Radius of a sphere of neo-Hooke and Canham under a pressure from t = 0 on, R = 1, rho = 1: lambda'' = p lambda^2 -
+/// dPsi/dlambda (theory J.5), by the classical Runge-Kutta method.
+class Breathing
+{
+public:
+  Breathing(double K, double c, double pressure) : K_(K), c_(c), pressure_(pressure) {}
+
+  double stretch(double time) const
+  {
+    const int    n = 2000;
+    const double h = time / n;
+    double       x = 1., v = 0.;
+    for (int i = 0; i < n; ++i)
+      {
+        const double k1 = v, l1 = acceleration(x);
+        const double k2 = v + .5 * h * l1, l2 = acceleration(x + .5 * h * k1);
+        const double k3 = v + .5 * h * l2, l3 = acceleration(x + .5 * h * k2);
+        const double k4 = v + h * l3, l4 = acceleration(x + h * k3);
+        x += h / 6. * (k1 + 2. * k2 + 2. * k3 + k4);
+        v += h / 6. * (l1 + 2. * l2 + 2. * l3 + l4);
+      }
+    return x;
+  }
+
+private:
+  double acceleration(double x) const { return pressure_ * x * x - K_ * (x * x * x - 1. / x) - 2. * c_ * (x - 1.); }
+
+  double K_, c_, pressure_;
+};
+
+/// Smallest and largest |x| / |X| on a grid over all patches, their borders included.
+std::pair<double, double> stretches(const Surface<2, 3> &surface, const State<2, 3> &state, int n)
+{
+  const auto                x = snapshot(state).position;
+  const auto                X = surface.control_points();
+  std::pair<double, double> range{1e300, 0.};
+  for (int p = 0; p < surface.n_patches(); ++p)
+    for (int i = 0; i <= 8; ++i)
+      for (int j = 0; j <= 8; ++j)
+        {
+          const auto at     = evaluate(surface, SurfacePlace{p, i * n / 8., j * n / 8.});
+          Point<3>   before = Point<3>::Zero(), now = before;
+          for (std::size_t A = 0; A < at.points.size(); ++A)
+            {
+              before += at.value[A] * X.row(at.points[A]).transpose();
+              now += at.value[A] * x.row(at.points[A]).transpose();
+            }
+          range.first  = std::min(range.first, now.norm() / before.norm());
+          range.second = std::max(range.second, now.norm() / before.norm());
+        }
+  return range;
+}
+
+} // namespace
+
+// Theory G.3, two digits: the penalty's own error is 2.7 h / beta, the rest is that of the elements. A multiplier is
+// the limit at degree 2; at degree 3 one value a piece is less than the elements could do.
+TEST_CASE("Plate of two patches: errors of both methods")
+{
+  CHECK(plate_error<2>(8, penalty(1.)) == Approx(3.4e-1).epsilon(.02));
+  CHECK(plate_error<2>(8, penalty(10.)) == Approx(3.0e-2).epsilon(.02));
+  CHECK(plate_error<2>(8, penalty(1e2)) == Approx(-1.3e-3).epsilon(.05));
+  CHECK(plate_error<2>(8, penalty(1e3)) == Approx(-4.3e-3).epsilon(.02));
+  CHECK(plate_error<2>(8, continuity::Penalty()) == Approx(-4.3e-3).epsilon(.02));
+  CHECK(plate_error<2>(8, penalty(1e5)) == Approx(-4.68e-3).epsilon(.005));
+  CHECK(plate_error<2>(8, multiplier) == Approx(-4.69e-3).epsilon(.005));
+  CHECK(plate_error<2>(16, continuity::Penalty()) == Approx(-9.8e-4).epsilon(.02));
+  CHECK(plate_error<2>(16, multiplier) == Approx(-1.15e-3).epsilon(.01));
+
+  CHECK(plate_error<3>(8, penalty(1e2)) == Approx(3.5e-3).epsilon(.02));
+  CHECK(plate_error<3>(8, continuity::Penalty()) == Approx(7.2e-5).epsilon(.03));
+  CHECK(plate_error<3>(8, multiplier) == Approx(-2.5e-3).epsilon(.03));
+  CHECK(plate_error<3>(16, continuity::Penalty()) == Approx(2.0e-5).epsilon(.1));
+  CHECK(plate_error<3>(16, multiplier) == Approx(-1.9e-4).epsilon(.05));
+}
+
+TEST_CASE("Plate of two patches: without continuity it hangs from a hinge")
+{
+  CHECK(plate_error<2>(8, continuity::None{}) > 50.);
+}
+
+// Theory G.2: half the crack with the slope s of phi at the interface costs 1/8 (3 + (1 - 2 s l0)^2) Gc, so that a
+// penalty leaves 1/4 / (1 + beta l0 / h) to Gc. Elements add 1.3 % at h = l0/2 and 0.3 % at l0/4, with or without an
+// interface.
+TEST_CASE("A crack on an interface costs Gc with continuity, three quarters of it without")
+{
+  for (const int per_length_scale : {2, 4})
+    {
+      const auto   energy = [&](const Continuity &method) { return crack_on_interface(per_length_scale, method); };
+      const double none = energy(continuity::None{}), full = energy(multiplier);
+      CHECK(none == Approx(.75).margin(.002));
+      CHECK(full > 1.);
+      CHECK(full == Approx(1.).epsilon(per_length_scale == 2 ? .014 : .004));
+      for (const double beta : {1., 10., 100.})
+        CHECK((full - energy(penalty(beta))) / (full - none) ==
+              Approx(1. / (1. + beta * per_length_scale)).epsilon(.05));
+      CHECK(energy(continuity::Penalty()) == Approx(full).epsilon(1e-3));
+    }
+}
+
+// Four patches in place of one, which gives 0.300584 on 8 x 8 elements and converges to 0.300592 (theory J.2). The
+// borders of patches add freedom along them, so that each mesh is a little softer than that of one patch.
+TEST_CASE("Scordelis-Lo roof of four patches")
+{
+  const auto middle_of_free_edge = [](const Continuity &continuity, int n) {
+    const auto    whole = roof<3>(n);
+    KoiterBody<3> body(4.32e8, 0., .25, split_patches(whole.surface, {2, 2}), whole.supports, whole.loads, {},
+                       continuity);
+    return -body.displacement(body.solver.solve_linear(body.state, 1.), n, n, 3)[2];
+  };
+  for (const auto &method : {Continuity(continuity::Penalty()), multiplier})
+    {
+      const double coarse = middle_of_free_edge(method, 8), fine = middle_of_free_edge(method, 16);
+      INFO(coarse << " " << fine);
+      CHECK(coarse == Approx(.300592).epsilon(5e-4));
+      CHECK(fine == Approx(.300592).epsilon(5e-5));
+      CHECK(std::abs(fine - .300592) < std::abs(coarse - .300592));
+    }
+}
+
+// Theory J.5: the paper's balloon without a crack, under its pressure from t = 0 on.
+TEST_CASE("Sphere of six patches under a step of pressure breathes as one")
+{
+  constexpr int    n       = 4;
+  constexpr double modulus = 10., nu = .3, c = 1e-5, pressure = .1, period = 1.175476;
+  const double     K = .5 * modulus / (1. - nu), G = .5 * modulus / (1. + nu);
+  const Breathing  exact(K, c, pressure);
+  const double     amplitude = exact.stretch(.5 * period) - 1.;
+  CHECK(amplitude == Approx(.00703277).epsilon(1e-5));
+
+  const models::Shell balloon(split::SurfaceStretch(material::NeoHooke(K, G), material::Canham(c), {.thickness = 1e-4}),
+                              degradation::Cubic(1e-4), {}, 1., .2, 1.);
+  const Environment   env(MPI_COMM_WORLD);
+  const Supports      none;
+  Loads<3>            loads;
+  loads.pressure([](const Point<3> &, double) { return pressure; }, PressureRelease::none);
+  for (const auto &method : {Continuity(continuity::Penalty()), multiplier})
+    {
+      CAPTURE(method.index());
+      const auto                                        surface = shapes::sphere<2>(1., n);
+      const ShellSpace<2, 3>                            space(env, surface, method);
+      State<2, 3>                                       state(space);
+      MonolithicSolver<models::Shell, GeneralizedAlpha> solver(balloon, space, none, loads, GeneralizedAlpha(1.), {});
+      solver.rebuild(state);
+      solver.set_initial_acceleration(state);
+      double defect = 0., spread = 0.;
+      for (int step = 0; step < 28; ++step)
+        {
+          auto result = solver.attempt(state, .0125 * period);
+          REQUIRE(result.state);
+          state                  = std::move(*result.state);
+          const auto [low, high] = stretches(surface, state, n);
+          defect = std::max(defect, std::abs(.5 * (low + high) - exact.stretch(state.time)) / amplitude);
+          spread = std::max(spread, (high - low) / amplitude);
+        }
+      CAPTURE(defect, spread);
+      CHECK(defect < 1e-3);
+      CHECK(spread < 1e-2);
+    }
+}
