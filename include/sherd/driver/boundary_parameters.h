@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <sherd/base/parameter_section.h>
 #include <sherd/driver/vector_formula.h>
 #include <sherd/forms/loads.h>
 #include <sherd/space/supports.h>

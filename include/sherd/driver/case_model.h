@@ -22,6 +22,10 @@ using CaseModel = BrittleShell<degree, spacedim, split::Any<spacedim>, degradati
 /// @throws InvalidParameter   from split and laws
 template <int spacedim>
 split::Any<spacedim> make_split(const MaterialParameters &parameters);
+template <>
+split::Any<2> make_split(const MaterialParameters &parameters);
+template <>
+split::Any<3> make_split(const MaterialParameters &parameters);
 
 /// Toughness and stiffness of a case by position.
 /// @throws InvalidParameter   a region that lacks what its kind needs
