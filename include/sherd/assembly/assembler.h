@@ -11,6 +11,7 @@
 #include <sherd/forms/element_energies.h>
 #include <sherd/forms/shell_element.h>
 #include <sherd/geometry/edge_geometry.h>
+#include <sherd/material/wave_speeds.h>
 #include <sherd/state/state.h>
 
 namespace sherd
@@ -33,8 +34,9 @@ struct SuspectElements
 
 /// The element loop: brings the weak forms of a model to distributed vectors and matrices, those on interfaces too.
 ///
-/// Caches the geometry and the toughness of the active elements, so it belongs to one mesh and one distribution: make
-/// a new one after each refinement. Threads: OMP_NUM_THREADS. The results do not depend on their number.
+/// Caches the geometry, the toughness and the stiffness of the active elements, so it belongs to one mesh and one
+/// distribution: make a new one after each refinement. Threads: OMP_NUM_THREADS. The results do not depend on their
+/// number.
 template <class Model>
 class Assembler
 {
@@ -47,7 +49,7 @@ public:
   /// Model and space have to outlive the assembler. What acts on tied control values acts on their masters; their own
   /// rows and columns are empty but for a 1 on the diagonal. Collective.
   /// @param ties   of the surface of @p space
-  /// @throws InvalidParameter   a degenerate element, a toughness that is not positive: on all ranks
+  /// @throws InvalidParameter   a degenerate element, a toughness or stiffness that is not positive: on all ranks
   Assembler(const Model &model, const ShellSpace<degree, spacedim> &space,
             std::shared_ptr<const Distribution> distribution, const std::vector<Tie> &ties = {});
 
@@ -57,6 +59,16 @@ public:
 
   /// Shortest element edge of the whole reference surface [length], theory F.3.
   double shortest_edge() const { return shortest_edge_; }
+
+  /// Largest factor of the moduli at a quadrature point of the whole surface.
+  double largest_stiffness() const { return largest_stiffness_; }
+
+  /// Wave speeds of the undamaged surface where it is stiffest: they bound steps and speeds everywhere (theory F.3).
+  WaveSpeeds fastest_waves() const
+  {
+    return wave_speeds(largest_stiffness_ * model_->split.bulk(), largest_stiffness_ * model_->split.shear(),
+                       model_->mass);
+  }
 
   /// int Gc/(2 l0) N_A dA of every owned control point, the scale of its phase residual (theory F.2), shape=(n_owned).
   const std::vector<double> &phase_scale() const { return phase_scale_; }
@@ -148,7 +160,7 @@ private:
   std::vector<std::pair<int, int>>    tied_unknowns_;    ///< owned local control point, field
   ScatterMap                          scatter_;
   std::vector<RowRange>               ranges_;
-  double                              shortest_edge_;
+  double                              shortest_edge_, largest_stiffness_;
   std::vector<double>                 phase_scale_, point_area_;
   InterfaceTerms<Model>               interfaces_;
 };

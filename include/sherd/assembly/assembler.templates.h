@@ -61,6 +61,7 @@ Assembler<Model>::Assembler(const Model &model, const ShellSpace<degree, spacedi
       scatter_(space.distribution()),
       ranges_(row_ranges(space.distribution(), omp_get_max_threads())),
       shortest_edge_(std::numeric_limits<double>::infinity()),
+      largest_stiffness_(0.),
       phase_scale_(distribution_->n_owned(), 0.),
       point_area_(distribution_->n_owned(), 0.),
       interfaces_(model, space, ties)
@@ -70,7 +71,7 @@ Assembler<Model>::Assembler(const Model &model, const ShellSpace<degree, spacedi
     std::exception_ptr error;
 #pragma omp parallel
     {
-      // A toughness given as a formula is not for several threads; copies of it are independent.
+      // A field given as a formula is not for several threads; copies of it are independent.
       const Model own = model;
 #pragma omp for schedule(static)
       for (std::size_t e = 0; e < elements_.size(); ++e)
@@ -102,6 +103,8 @@ Assembler<Model>::Assembler(const Model &model, const ShellSpace<degree, spacedi
         for (int c = 0; c < n_fields; ++c)
           tied_extractions_[tied][c] = ties_.transfer(tied, c) * data.geometry.extraction;
       shortest_edge_ = std::min(shortest_edge_, sherd::shortest_edge(data.geometry));
+      largest_stiffness_ =
+          std::max(largest_stiffness_, *std::max_element(data.stiffness.begin(), data.stiffness.end()));
       std::optional<ShapeValues<degree>> storage;
       const auto                        &s      = data.geometry.shapes(storage);
       const auto                         points = space.points_of(static_cast<int>(e));
@@ -119,6 +122,7 @@ Assembler<Model>::Assembler(const Model &model, const ShellSpace<degree, spacedi
         }
     }
   MPI_Allreduce(MPI_IN_PLACE, &shortest_edge_, 1, MPI_DOUBLE, MPI_MIN, distribution_->comm());
+  MPI_Allreduce(MPI_IN_PLACE, &largest_stiffness_, 1, MPI_DOUBLE, MPI_MAX, distribution_->comm());
 }
 
 template <class Model>

@@ -68,7 +68,10 @@ InterfaceTerms<Model>::InterfaceTerms(const Model &model, const ShellSpace<degre
         if (!penalty)
           cell.points.push_back(d.local[space.n_control_points() + d.interfaces[k]]);
 
-        const double eps = beta_angle * stiffness / cell.tables.size;
+        double factor = 0.; // of the moduli; the penalty follows the stiffer side
+        for (const auto &point : cell.tables.quadrature)
+          factor = std::max(factor, model.stiffness(point.position));
+        const double eps = beta_angle * factor * stiffness / cell.tables.size;
         if (stiffness > 0.)
           (penalty ? cell.angle_stiffness : cell.angle_compliance) = penalty ? eps : cell.tables.length / eps;
         if (penalty)

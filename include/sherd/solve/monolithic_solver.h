@@ -7,7 +7,6 @@
 #include <sherd/algebra/linear_solver.h>
 #include <sherd/assembly/assembler.h>
 #include <sherd/base/timers.h>
-#include <sherd/material/wave_speeds.h>
 #include <sherd/solve/newton_settings.h>
 #include <sherd/solve/supported_unknowns.h>
 #include <sherd/time/integrator.h>
@@ -86,11 +85,8 @@ public:
   /// and loads exert on the surface, shape=(spacedim). Collective.
   Point<spacedim> reaction(const std::string &edge) const;
 
-  /// c_R of the undamaged surface (theory F.3).
-  double rayleigh_speed() const
-  {
-    return wave_speeds(model_->split.bulk(), model_->split.shear(), model_->mass).rayleigh;
-  }
+  /// c_R of the undamaged surface where it is stiffest (theory F.3). After rebuild().
+  double rayleigh_speed() const { return assembler_->fastest_waves().rayleigh; }
 
   PhaseTimers &timers() { return timers_; }
 

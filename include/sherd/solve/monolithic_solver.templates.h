@@ -195,7 +195,8 @@ typename MonolithicSolver<Model, Integrator>::Norms MonolithicSolver<Model, Inte
   // meaning.
   const double n_unknowns = static_cast<double>(spacedim) * space_->surface().n_control_points();
   const double floor      = 100. * std::numeric_limits<double>::epsilon() *
-                       (model_->split.bulk() + model_->split.shear() + peaks[2]) * peaks[1] * std::sqrt(n_unknowns);
+                       (assembler_->largest_stiffness() * (model_->split.bulk() + model_->split.shear()) + peaks[2]) *
+                       peaks[1] * std::sqrt(n_unknowns);
   const double reference = std::sqrt(std::max({sums[1], sums[2], sums[3]}));
   const double allowed   = settings_.displacement_tolerance * reference + floor;
   if (!std::isfinite(sums[0] + sums[1] + sums[2] + sums[3]))
