@@ -62,9 +62,9 @@ struct StepControlSettings
 
 /// Step sizes, bounded by dt_max = dx_min / (0.6 c_R): a crack tip stays below 0.6 c_R and so crosses at most one
 /// element a step. They follow the number of Newton iterations (paper Eq. (13)), stay fixed, or keep the estimated
-/// error e of a step at its tolerance with the proportional and integral factor
+/// error e of a step near its tolerance with the proportional and integral factor
 ///
-///   0.9 (tolerance / e)^(0.7/3) (e_before / tolerance)^(0.4/3), between rejected_again and few;
+///   (0.8 tolerance / e)^(0.7/3) (e_before / 0.8 tolerance)^(0.4/3), between rejected_again and few;
 ///
 /// a step with e > tolerance is rejected. Whatever the rule, a step that was shortened to end at a given time does not
 /// let the next ones grow: it says nothing of longer ones.
@@ -235,14 +235,17 @@ private:
                              (std::isfinite(below) ? " and < " + print(below) : ""));
   }
 
+  /// Error that steps aim at.
+  double aim() const { return .8 * settings_.tolerance; }
+
   /// Factor of the step after one with this error.
   double error_factor(double error) const
   {
     if (!(error > 0.))
       return settings_.few;
-    double factor = .9 * std::pow(settings_.tolerance / error, .7 / 3.);
-    factor *= previous_error_ > 0. ? std::pow(previous_error_ / settings_.tolerance, .4 / 3.)
-                                   : std::pow(settings_.tolerance / error, .3 / 3.);
+    const double factor = previous_error_ > 0.
+                              ? std::pow(aim() / error, .7 / 3.) * std::pow(previous_error_ / aim(), .4 / 3.)
+                              : std::cbrt(aim() / error);
     return std::clamp(factor, settings_.rejected_again, std::max(settings_.few, 1.));
   }
 
