@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,8 +30,11 @@ struct StepResult
   double                                 external_work = 0.; ///< by loads and supports over the step [energy]
   double                                 withheld_work = 0.; ///< by the history over the step [energy], theory D
   double                                 largest_phase = 0.; ///< at a quadrature point
-  std::vector<double>                    residuals; ///< |r_u| and |r_phi| relative to their tolerances, larger one
-  std::vector<std::string>               messages;  ///< escalations of the linear solver, one line each
+  /// Estimate of the local error of the displacement: the largest of a control point over the diagonal of the box
+  /// around the body (displacement_error). 0 without inertia.
+  double                   error = 0.;
+  std::vector<double>      residuals; ///< |r_u| and |r_phi| relative to their tolerances, larger one
+  std::vector<std::string> messages;  ///< escalations of the linear solver, one line each
 };
 
 /// Solves displacement and phase of one implicit step together by Newton's method with the full tangent, and makes sure
@@ -45,7 +49,7 @@ struct StepResult
 /// so that step sizes stay those of Newton's method.
 ///
 /// The arguments of the constructor have to outlive the solver.
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
 class MonolithicSolver
 {
 public:
@@ -92,6 +96,9 @@ public:
     return wave_speeds(model_->split.bulk(), model_->split.shear(), model_->mass).rayleigh;
   }
 
+  /// Largest stable step [time]: an implicit scheme has none.
+  double largest_step() const { return std::numeric_limits<double>::infinity(); }
+
   PhaseTimers &timers() { return timers_; }
 
 private:
@@ -110,17 +117,19 @@ private:
     bool   fresh;       ///< solved with once only
   };
 
-  bool  find_stable_state(System &system, Result &result);
-  bool  iterate(System &system, Result &result);
-  void  leave_false_branch(System &system, const Vector &start, Result &result);
-  bool  on_stable_branch(System &system, Result &result);
-  void  observe(const std::vector<double> &residuals);
-  bool  expects_use_of_kept_tangent(const std::vector<double> &residuals) const;
-  bool  kept_tangent_suffices(double residual) const;
-  Norms linearise(System &system, PhaseTangent tangent);
-  Norms evaluate(System &system);
-  Norms balance(System &system, Vector force);
-  void  solve_increment(System &system, Result &result);
+  bool   find_stable_state(System &system, Result &result);
+  bool   iterate(System &system, Result &result);
+  void   leave_false_branch(System &system, const Vector &start, Result &result);
+  bool   on_stable_branch(System &system, Result &result);
+  void   observe(const std::vector<double> &residuals);
+  bool   expects_use_of_kept_tangent(const std::vector<double> &residuals) const;
+  bool   kept_tangent_suffices(double residual) const;
+  Norms  linearise(System &system, PhaseTangent tangent);
+  Norms  evaluate(System &system);
+  Norms  balance(System &system, Vector force);
+  void   solve_increment(System &system, Result &result);
+  double external_work(const System &system, const Vector &from) const;
+  double error(const Motion &start, const Motion &end, double dt) const;
 
   const Model                        *model_;
   const ShellSpace<degree, spacedim> *space_;
