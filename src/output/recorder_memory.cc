@@ -16,6 +16,7 @@ void exchange(Archive archive, Energies &energies)
   archive("fracture", energies.fracture);
   archive("constraint", energies.constraint);
   archive("bending", energies.bending);
+  archive("diffuse_length", energies.diffuse_length);
 }
 
 template <class Archive>
@@ -85,6 +86,8 @@ void exchange(Archive archive, HistoryRow &row)
   archive("dissipation", row.dissipation);
   archive("inertial_dissipation", row.inertial_dissipation);
   archive("refinement", row.refinement);
+  archive("diffuse_length", row.diffuse_length);
+  archive("fastest_tip", row.fastest_tip);
   archive("closure", row.closure);
   archive("error", row.error);
 }

@@ -332,9 +332,10 @@ Energies Assembler<Model>::energies(const Vector &position, const Vector &veloci
   for (const auto &energies : part)
     sum += energies;
   sum.constraint  = interfaces_.energy(position, phase);
-  double values[] = {sum.active, sum.passive, sum.kinetic, sum.fracture, sum.constraint, sum.bending};
-  MPI_Allreduce(MPI_IN_PLACE, values, 6, MPI_DOUBLE, MPI_SUM, distribution_->comm());
-  return {values[0], values[1], values[2], values[3], values[4], values[5]};
+  double values[] = {sum.active,     sum.passive, sum.kinetic,       sum.fracture,
+                     sum.constraint, sum.bending, sum.diffuse_length};
+  MPI_Allreduce(MPI_IN_PLACE, values, 7, MPI_DOUBLE, MPI_SUM, distribution_->comm());
+  return {values[0], values[1], values[2], values[3], values[4], values[5], values[6]};
 }
 
 template <class Model>

@@ -8,12 +8,13 @@ namespace sherd
 /// Energies of a body or of a part of it, [energy].
 struct Energies
 {
-  double active     = 0.; ///< int g Psi+ dA
-  double passive    = 0.; ///< int Psi- dA
-  double kinetic    = 0.; ///< int rho v.v / 2 dA
-  double fracture   = 0.; ///< int Psi_frac dA
-  double constraint = 0.; ///< of the continuity across interfaces, theory G
-  double bending    = 0.; ///< part of the elastic energy that the change of curvature adds; 0 in the plane
+  double active         = 0.; ///< int g Psi+ dA
+  double passive        = 0.; ///< int Psi- dA
+  double kinetic        = 0.; ///< int rho v.v / 2 dA
+  double fracture       = 0.; ///< int Psi_frac dA
+  double constraint     = 0.; ///< of the continuity across interfaces, theory G
+  double bending        = 0.; ///< part of the elastic energy that the change of curvature adds; 0 in the plane
+  double diffuse_length = 0.; ///< int Psi_frac / Gc dA [length]
 
   double elastic() const { return active + passive; }
   double membrane() const { return elastic() - bending; } ///< elastic energy of the same metric, k_ab = 0
@@ -26,6 +27,7 @@ struct Energies
     fracture += other.fracture;
     constraint += other.constraint;
     bending += other.bending;
+    diffuse_length += other.diffuse_length;
     return *this;
   }
 };
@@ -76,8 +78,10 @@ Energies element_energies(const Model &model, const ElementData<Model> &data, co
           sum.bending += reference.dA * (internal::degraded_energy(p.response, g) - internal::degraded_energy(flat, g));
         }
       sum.kinetic += reference.dA * .5 * model.mass * p.inertia.squaredNorm();
-      sum.fracture += reference.dA * crack_energy(model.crack_density, data.toughness[q], model.length_scale, p.phi,
-                                                  gradient, p.laplacian);
+      const double crack =
+          crack_energy(model.crack_density, data.toughness[q], model.length_scale, p.phi, gradient, p.laplacian);
+      sum.fracture += reference.dA * crack;
+      sum.diffuse_length += reference.dA * crack / data.toughness[q];
     }
   return sum;
 }

@@ -31,6 +31,8 @@ struct HistoryRow
   double dissipation, inertial_dissipation; ///< of the integrator since t = 0; the part of the inertial force
   double refinement;                        ///< energy that refinements of the mesh have added
   double closure;                           ///< the balance with dissipation and refinement
+  double diffuse_length;                    ///< int Psi_frac / Gc dA, beside the length of the cracks (theory L)
+  int    fastest_tip;                       ///< that of tip_speed; -1 without tips
   double error;                             ///< of the step, estimated by the integrator; 0 without an estimate
 };
 

@@ -59,6 +59,8 @@ void RunRecorder<degree, spacedim>::write_rows(Solver &solver, const SpaceType &
   row.inertial_dissipation = balance_.inertial_dissipation();
   row.refinement           = balance_.refinement();
   row.closure              = balance_.closure();
+  row.diffuse_length       = memory_.energies.diffuse_length;
+  row.fastest_tip          = -1;
   row.error                = step.error;
 
   std::vector<Point<spacedim>> reactions;
@@ -74,6 +76,7 @@ void RunRecorder<degree, spacedim>::write_rows(Solver &solver, const SpaceType &
     row.tips           = files_->tracker.tree().n_active();
     const auto fastest = files_->tracker.tree().fastest();
     row.tip_speed      = fastest ? fastest->speed : 0.;
+    row.fastest_tip    = fastest ? fastest->id : -1;
     files_->history.append(row);
     files_->work.append(work_row(row));
     files_->tips.append(state.step, state.time, files_->tracker);

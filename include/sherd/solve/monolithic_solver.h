@@ -7,6 +7,7 @@
 
 #include <sherd/algebra/linear_solver.h>
 #include <sherd/assembly/assembler.h>
+#include <sherd/assembly/external_work.h>
 #include <sherd/base/timers.h>
 #include <sherd/material/wave_speeds.h>
 #include <sherd/solve/newton_settings.h>
@@ -27,7 +28,7 @@ struct StepResult
   int                                    newton        = 0;  ///< n_NR of paper Eq. (13), see MonolithicSolver
   int                                    linear        = 0;  ///< linear iterations, all together
   int                                    switched      = 0;  ///< branch switches (theory C.2 2)
-  double                                 external_work = 0.; ///< by loads and supports over the step [energy]
+  StepWork                               work;               ///< of all forces over the step [energy]
   double                                 withheld_work = 0.; ///< by the history over the step [energy], theory D
   double                                 largest_phase = 0.; ///< at a quadrature point
   /// Estimate of the local error of the displacement: the largest of a control point over the diagonal of the box
@@ -69,6 +70,7 @@ public:
   const Assembler<Model>             &assembler() const { return *assembler_; }
   const ShellSpace<degree, spacedim> &space() const { return *space_; }
   const Model                        &model() const { return *model_; }
+  const Loads<spacedim>              &loads() const { return *loads_; }
 
   /// Solves the phase equation at the displacement of @p state, from its phase, with its history. Collective.
   /// @throws NoConvergence
@@ -128,7 +130,7 @@ private:
   Norms  evaluate(System &system);
   Norms  balance(System &system, Vector force);
   void   solve_increment(System &system, Result &result);
-  double external_work(const System &system, const Vector &from) const;
+  StepWork work(const System &system, double load_time, const Vector &position, const Vector &phase) const;
   double error(const Motion &start, const Motion &end, double dt) const;
 
   const Model                        *model_;

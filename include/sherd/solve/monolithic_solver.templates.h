@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include <sherd/assembly/step_work.h>
 #include <sherd/fracture/branch.h>
 #include <sherd/solve/definiteness.h>
 #include <sherd/solve/monolithic_solver.h>
@@ -416,14 +417,14 @@ MonolithicSolver<Model, Integrator>::attempt(const StateType &state, double dt)
       for (std::size_t a = 0; a < phase.local().size(); ++a)
         phase.local()[a] += dt_of_stage / elapsed_before * (end.phase.local()[a] - phase_before.local()[a]);
 
-      System    system(stage, start, std::move(next), std::move(phase), end.history, supported_->fixed(),
-                       assembler_->interfaces().multipliers(),
-                       assembler_->evaluate(*loads_, state.time + stage.alpha_f * stage.dt));
-      const int newton = std::exchange(result.newton, 0);
+      const double load_time = state.time + stage.alpha_f * stage.dt;
+      System       system(stage, start, std::move(next), std::move(phase), end.history, supported_->fixed(),
+                          assembler_->interfaces().multipliers(), assembler_->evaluate(*loads_, load_time));
+      const int    newton = std::exchange(result.newton, 0);
       if (!find_stable_state(system, result))
         return result;
       result.newton = std::max(result.newton, newton);
-      result.external_work += external_work(system, end.position);
+      result.work += work(system, load_time, end.position, end.phase);
       end.position     = system.next.position;
       end.velocity     = system.next.velocity;
       end.acceleration = system.next.acceleration;
@@ -444,19 +445,13 @@ MonolithicSolver<Model, Integrator>::attempt(const StateType &state, double dt)
 }
 
 template <class Model, ImplicitIntegrator Integrator>
-double MonolithicSolver<Model, Integrator>::external_work(const System &system, const Vector &from) const
+StepWork MonolithicSolver<Model, Integrator>::work(const System &system, double load_time, const Vector &position,
+                                                   const Vector &phase) const
 {
-  // At the level at which the integrator balances the loads.
-  double work = 0.;
-  for (int i = 0; i < assembler_->distribution()->n_owned(); ++i)
-    for (int c = 0; c < spacedim; ++c)
-      {
-        const int    k    = i * n_fields + c;
-        const double move = system.next.position.local()[i * spacedim + c] - from.local()[i * spacedim + c];
-        work += (supported_->is_held(k) ? total_force_->local()[k] : system.external.local()[k]) * move;
-      }
-  MPI_Allreduce(MPI_IN_PLACE, &work, 1, MPI_DOUBLE, MPI_SUM, assembler_->distribution()->comm());
-  return work;
+  return step_work(
+      *assembler_, *loads_, {system.level(), load_time, *total_force_, system.external},
+      [this](std::size_t k) { return supported_->is_held(k); }, difference(system.next.position, position),
+      difference(system.phase, phase));
 }
 
 template <class Model, ImplicitIntegrator Integrator>
