@@ -118,7 +118,9 @@ StepSummary Adaptivity<Model>::advance(Solver &solver, SurfaceType &surface, Spa
   StepSummary summary;
   for (;;)
     {
-      const double remaining = end_time - state.time;
+      controller.limit(solver.largest_step());
+      const double stop      = controller.next_stop(state.time, end_time);
+      const double remaining = stop - state.time;
       const double dt        = controller.step_within(remaining);
       auto         result    = solver.attempt(state, dt);
       ++summary.attempts;
@@ -132,6 +134,13 @@ StepSummary Adaptivity<Model>::advance(Solver &solver, SurfaceType &surface, Spa
           controller.reject(summary.rejected == 1 ? result.failure
                                                   : result.failure + " (at first " + summary.messages.front() + ")",
                             dt);
+          continue;
+        }
+      if (controller.is_inaccurate(result.error))
+        {
+          ++summary.rejected;
+          summary.messages.push_back("rejected: estimated error " + print(result.error));
+          controller.reject_inaccurate(result.error, dt);
           continue;
         }
 
@@ -149,21 +158,23 @@ StepSummary Adaptivity<Model>::advance(Solver &solver, SurfaceType &surface, Spa
           continue;
         }
 
-      state = std::move(*result.state);
-      // The sum of time and step may miss the end by rounding.
-      if (dt == remaining)
-        state.time = end_time;
       summary.dt            = dt;
       summary.newton        = result.newton;
-      summary.external_work = result.external_work;
+      summary.error         = result.error;
+      summary.work          = result.work;
       summary.withheld_work = result.withheld_work;
       summary.largest_phase = result.largest_phase;
       {
         const auto timing = solver.timers().measure("energies");
-        summary.energies  = solver.energies(state);
+        summary.before    = solver.energies(state);
+        summary.energies  = solver.energies(*result.state);
       }
+      state = std::move(*result.state);
+      // The sum of time and step may miss the stop by rounding.
+      if (dt == remaining)
+        state.time = stop;
       if (triggers.empty())
-        controller.accept(result.newton);
+        controller.accept(result.newton, result.error, dt);
       else
         {
           refine(solver, surface, space, state, triggers);

@@ -117,6 +117,9 @@ public:
   /// @p history is that of the end of the step, committed(level, ...). Collective.
   double withheld_work(const BalanceLevel &level, const Vector &previous, const QuadratureField &history) const;
 
+  /// Work of the inertial force over a step, M a . dx, summed over ranks. Collective.
+  double inertial_work(const Vector &acceleration, const Vector &displacement) const;
+
   /// The memory after a step, by the irreversibility rule of the model: max(H, Psi+) of the level for a history.
   QuadratureField committed(const BalanceLevel &level, const QuadratureField &history) const;
 

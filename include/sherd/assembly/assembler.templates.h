@@ -336,9 +336,10 @@ Energies Assembler<Model>::energies(const Vector &position, const Vector &veloci
   for (const auto &energies : part)
     sum += energies;
   sum.constraint  = interfaces_.energy(position, phase);
-  double values[] = {sum.active, sum.passive, sum.kinetic, sum.fracture, sum.constraint};
-  MPI_Allreduce(MPI_IN_PLACE, values, 5, MPI_DOUBLE, MPI_SUM, distribution_->comm());
-  return {values[0], values[1], values[2], values[3], values[4]};
+  double values[] = {sum.active,     sum.passive, sum.kinetic,       sum.fracture,
+                     sum.constraint, sum.bending, sum.diffuse_length};
+  MPI_Allreduce(MPI_IN_PLACE, values, 7, MPI_DOUBLE, MPI_SUM, distribution_->comm());
+  return {values[0], values[1], values[2], values[3], values[4], values[5], values[6]};
 }
 
 template <class Model>
@@ -355,6 +356,22 @@ double Assembler<Model>::withheld_work(const BalanceLevel &level, const Vector &
         const auto before = fields(static_cast<int>(e), level.position, level.acceleration, previous);
         part[e]           = element_withheld_work(*model_, elements_[e], now, before.phase, history[e]);
       }
+  double sum = std::accumulate(part.begin(), part.end(), 0.);
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, distribution_->comm());
+  return sum;
+}
+
+template <class Model>
+double Assembler<Model>::inertial_work(const Vector &acceleration, const Vector &displacement) const
+{
+  const auto         &owns = space_->distribution().owns;
+  std::vector<double> part(elements_.size(), 0.);
+  Vector              phase(distribution_, 1);
+#pragma omp parallel for schedule(static)
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    if (owns[e])
+      part[e] =
+          element_inertial_work(*model_, elements_[e], fields(static_cast<int>(e), displacement, acceleration, phase));
   double sum = std::accumulate(part.begin(), part.end(), 0.);
   MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, distribution_->comm());
   return sum;

@@ -34,22 +34,27 @@ public:
   /// @param directory    prepared, with the used.yaml of this run in it
   /// @param initial      surface before any refinement
   /// @param checkpoint   what the run was resumed from, if it was (restart_checkpoint())
-  /// Solver, space, state and controller are those the steps work on; they have to outlive the run.
+  /// Solver, space, state and controller are those the steps work on; they have to outlive the run. The controller is
+  /// asked to stop at evenly spaced frames if its settings want that; where they name times, frames are written.
   /// @throws FileError, InvalidParameter   on all ranks
   RecordedRun(const Environment &env, const OutputDirectory &directory, const SurfaceType &initial,
               const std::optional<Checkpoint<degree, spacedim>> &checkpoint,
               const RecorderSettings<spacedim> &recording, const CheckpointSettings &checkpointing, Solver &solver,
-              const SpaceType &space, StateType &state, const StepController &controller)
+              const SpaceType &space, StateType &state, StepController &controller)
       : env_(env),
         checkpoints_(env, directory, checkpointing),
-        recorder_(checkpoint
-                      ? RunRecorder<degree, spacedim>(env, directory, initial, checkpoint->recorder, recording)
-                      : RunRecorder<degree, spacedim>(env, directory, initial, solver.energies(state), recording)),
+        recorder_(make_recorder(env, directory, initial, checkpoint, completed(recording, solver, controller), solver,
+                                state)),
         solver_(solver),
         space_(space),
         state_(state),
         controller_(controller)
   {
+    std::vector<double> frames;
+    if (controller.settings().hit_frames)
+      for (int k = 1; k < recording.frames; ++k)
+        frames.push_back(recording.frame_time(k));
+    controller.stop_at(frames);
     if (!checkpoint)
       recorder_.start(solver_, space_, state_);
   }
@@ -83,6 +88,27 @@ public:
   RecorderMemory memory() const { return recorder_.memory(solver_); }
 
 private:
+  /// With the names of the loads, and with the times that are asked of the controller.
+  static RecorderSettings<spacedim> completed(RecorderSettings<spacedim> recording, const Solver &solver,
+                                              const StepController &controller)
+  {
+    recording.loads   = solver.loads().names();
+    const auto &times = controller.settings().times;
+    recording.times.insert(recording.times.end(), times.begin(), times.end());
+    return recording;
+  }
+
+  static RunRecorder<degree, spacedim> make_recorder(const Environment &env, const OutputDirectory &directory,
+                                                     const SurfaceType                                 &initial,
+                                                     const std::optional<Checkpoint<degree, spacedim>> &checkpoint,
+                                                     const RecorderSettings<spacedim> &recording, const Solver &solver,
+                                                     const StateType &state)
+  {
+    if (checkpoint)
+      return {env, directory, initial, checkpoint->recorder, recording};
+    return {env, directory, initial, solver.energies(state), recording};
+  }
+
   template <class Advance>
   StepSummary attempt(const Advance &advance)
   {

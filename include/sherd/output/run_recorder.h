@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -12,6 +13,7 @@
 #include <sherd/base/profile.h>
 #include <sherd/base/progress.h>
 #include <sherd/output/crack_tracker.h>
+#include <sherd/output/csv_table.h>
 #include <sherd/output/fields_file.h>
 #include <sherd/output/frames.h>
 #include <sherd/output/history.h>
@@ -34,10 +36,15 @@ struct RecorderSettings
   int                               frames = 40; ///< evenly spaced in time, beside the first
   std::vector<PointProbe<spacedim>> points;      ///< for probes.csv
   std::vector<std::string>          edges;       ///< for probes.csv: reactions
+  std::vector<double>               times;       ///< of frames beside those; steps have to end exactly there
+  std::vector<std::string>          loads;       ///< for work.csv: their names, as the solver knows them
+
+  /// Time of evenly spaced frame @p k.
+  double frame_time(int k) const { return end_time / frames * k; }
 };
 
-/// Writes what a program leaves behind: history.csv, tips.csv, probes.csv, frames, fields.h5, summary.json, and the
-/// progress line on the terminal (doc/output.md). Files are written by rank 0; all members are collective.
+/// Writes what a program leaves behind: history.csv, work.csv, tips.csv, probes.csv, frames, fields.h5, summary.json,
+/// and the progress line on the terminal (doc/output.md). Files are written by rank 0; all members are collective.
 ///
 /// @tparam Solver arguments need assembler(), timers(), energies() and reaction() as MonolithicSolver has them.
 template <int degree, int spacedim>
@@ -78,6 +85,7 @@ public:
   {
     write_rows(solver, space, state, {});
     write_frame(solver, space, state);
+    ++memory_.n_frames;
   }
 
   /// An accepted step.
@@ -88,9 +96,10 @@ public:
     memory_.energies = step.energies;
     memory_.totals.add(step);
     write_rows(solver, space, state, step);
-    const double next_frame = settings_.end_time / settings_.frames * memory_.n_frames;
-    if (state.time >= next_frame * (1. - 1e-9))
+    const bool is_due = state.time >= settings_.frame_time(memory_.n_frames) * (1. - 1e-9);
+    if (is_due || std::find(settings_.times.begin(), settings_.times.end(), state.time) != settings_.times.end())
       write_frame(solver, space, state);
+    memory_.n_frames += is_due;
   }
 
   /// Writes summary.json, and with --profile a table of time and memory to the terminal.
@@ -109,6 +118,7 @@ private:
           const RecorderSettings<spacedim> &settings)
         : directory(path),
           history(path),
+          work(path / "work.csv", work_columns(settings)),
           tips(path),
           probes(path, surface, settings.points, settings.edges),
           frames(path),
@@ -122,6 +132,7 @@ private:
           const RecorderSettings<spacedim> &settings, const RecorderMemory &memory)
         : directory(path),
           history(History::resume(path, memory.last.time)),
+          work(CsvTable::resume(path / "work.csv", work_columns(settings), memory.last.time)),
           tips(TipsTable::resume(path, memory.last.time)),
           probes(Probes<spacedim>::resume(path, surface, settings.points, settings.edges, memory.last.time)),
           frames(FrameWriter::resume(path, memory.last.time)),
@@ -132,8 +143,16 @@ private:
       tracker.restore(memory.cracks);
     }
 
+    static std::vector<std::string> work_columns(const RecorderSettings<spacedim> &settings)
+    {
+      std::vector<std::string> columns{"step", "time", "supports"};
+      columns.insert(columns.end(), settings.loads.begin(), settings.loads.end());
+      return columns;
+    }
+
     std::filesystem::path directory;
     History               history;
+    CsvTable              work;
     TipsTable             tips;
     Probes<spacedim>      probes;
     FrameWriter           frames;
@@ -146,6 +165,8 @@ private:
   void write_rows(Solver &solver, const SpaceType &space, const StateType &state, const StepSummary &step);
   template <class Solver>
   void write_frame(Solver &solver, const SpaceType &space, const StateType &state);
+
+  CsvRow work_row(const HistoryRow &row) const;
 
   /// Wall seconds by phase, of this program and of those before it. Collective.
   template <class Solver>

@@ -9,6 +9,19 @@ namespace sherd
 {
 
 template <int degree, int spacedim>
+CsvRow RunRecorder<degree, spacedim>::work_row(const HistoryRow &row) const
+{
+  CsvRow cells;
+  cells << row.step << row.time << row.support_work;
+  // None is known before the first step.
+  auto of_loads = balance_.work().loads;
+  of_loads.resize(settings_.loads.size(), 0.);
+  for (const double work : of_loads)
+    cells << work;
+  return cells;
+}
+
+template <int degree, int spacedim>
 template <class Solver>
 void RunRecorder<degree, spacedim>::write_rows(Solver &solver, const SpaceType &space, const StateType &state,
                                                const StepSummary &step)
@@ -36,6 +49,20 @@ void RunRecorder<degree, spacedim>::write_rows(Solver &solver, const SpaceType &
   row.balance       = balance_.balance();
   row.wall          = wall_seconds();
 
+  row.active               = memory_.energies.active;
+  row.passive              = memory_.energies.passive;
+  row.membrane             = memory_.energies.membrane();
+  row.bending              = memory_.energies.bending;
+  row.support_work         = balance_.work().supports;
+  row.load_work            = balance_.work().of_loads();
+  row.dissipation          = balance_.dissipation();
+  row.inertial_dissipation = balance_.inertial_dissipation();
+  row.refinement           = balance_.refinement();
+  row.closure              = balance_.closure();
+  row.diffuse_length       = memory_.energies.diffuse_length;
+  row.fastest_tip          = -1;
+  row.error                = step.error;
+
   std::vector<Point<spacedim>> reactions;
   for (const auto &edge : settings_.edges)
     reactions.push_back(solver.reaction(edge));
@@ -49,7 +76,9 @@ void RunRecorder<degree, spacedim>::write_rows(Solver &solver, const SpaceType &
     row.tips           = files_->tracker.tree().n_active();
     const auto fastest = files_->tracker.tree().fastest();
     row.tip_speed      = fastest ? fastest->speed : 0.;
+    row.fastest_tip    = fastest ? fastest->id : -1;
     files_->history.append(row);
+    files_->work.append(work_row(row));
     files_->tips.append(state.step, state.time, files_->tracker);
     files_->probes.append(space.surface(), all, reactions);
     for (const auto &message : step.messages)
@@ -98,7 +127,6 @@ void RunRecorder<degree, spacedim>::write_frame(Solver &solver, const SpaceType 
     files_->frames.write(space.surface(), all, fields);
     files_->fields.write(space.surface(), all);
   });
-  ++memory_.n_frames;
 }
 
 template <int degree, int spacedim>
@@ -143,6 +171,8 @@ void RunRecorder<degree, spacedim>::finish(Solver &solver, const std::string &en
                                                            .add("external_work", last.external_work)
                                                            .add("irreversible", last.irreversible)
                                                            .add("balance", last.balance)
+                                                           .add("dissipation", last.dissipation)
+                                                           .add("closure", last.closure)
                                                            .add("crack_length", last.crack_length))
                                          .add("extreme", JsonObject()
                                                              .add("elastic", memory_.largest_elastic)

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <sherd/algebra/linear_solver.h>
 #include <sherd/assembly/assembler.h>
+#include <sherd/assembly/external_work.h>
 #include <sherd/base/timers.h>
 #include <sherd/solve/newton_settings.h>
 #include <sherd/solve/supported_unknowns.h>
@@ -25,11 +27,14 @@ struct StepResult
   int                                    newton        = 0;  ///< n_NR of paper Eq. (13), see MonolithicSolver
   int                                    linear        = 0;  ///< linear iterations, all together
   int                                    switched      = 0;  ///< branch switches (theory C.2 2)
-  double                                 external_work = 0.; ///< by loads and supports over the step [energy]
+  StepWork                               work;               ///< of all forces over the step [energy]
   double                                 withheld_work = 0.; ///< by the history over the step [energy], theory D
   double                                 largest_phase = 0.; ///< at a quadrature point
-  std::vector<double>                    residuals; ///< |r_u| and |r_phi| relative to their tolerances, larger one
-  std::vector<std::string>               messages;  ///< escalations of the linear solver, one line each
+  /// Estimate of the local error of the displacement: the largest of a control point over the diagonal of the box
+  /// around the body (displacement_error). 0 without inertia.
+  double                   error = 0.;
+  std::vector<double>      residuals; ///< |r_u| and |r_phi| relative to their tolerances, larger one
+  std::vector<std::string> messages;  ///< escalations of the linear solver, one line each
 };
 
 /// Solves displacement and phase of one implicit step together by Newton's method with the full tangent, and makes sure
@@ -44,7 +49,7 @@ struct StepResult
 /// so that step sizes stay those of Newton's method.
 ///
 /// The arguments of the constructor have to outlive the solver.
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
 class MonolithicSolver
 {
 public:
@@ -64,6 +69,7 @@ public:
   const Assembler<Model>             &assembler() const { return *assembler_; }
   const ShellSpace<degree, spacedim> &space() const { return *space_; }
   const Model                        &model() const { return *model_; }
+  const Loads<spacedim>              &loads() const { return *loads_; }
 
   /// Solves the phase equation at the displacement of @p state, from its phase, with its history. Collective.
   /// @throws NoConvergence
@@ -88,6 +94,9 @@ public:
   /// c_R of the undamaged surface where it is stiffest (theory F.3). After rebuild().
   double rayleigh_speed() const { return assembler_->fastest_waves().rayleigh; }
 
+  /// Largest stable step [time]: an implicit scheme has none.
+  double largest_step() const { return std::numeric_limits<double>::infinity(); }
+
   PhaseTimers &timers() { return timers_; }
 
 private:
@@ -106,17 +115,19 @@ private:
     bool   fresh;       ///< solved with once only
   };
 
-  bool  find_stable_state(System &system, Result &result);
-  bool  iterate(System &system, Result &result);
-  void  leave_false_branch(System &system, const Vector &start, Result &result);
-  bool  on_stable_branch(System &system, Result &result);
-  void  observe(const std::vector<double> &residuals);
-  bool  expects_use_of_kept_tangent(const std::vector<double> &residuals) const;
-  bool  kept_tangent_suffices(double residual) const;
-  Norms linearise(System &system, PhaseTangent tangent);
-  Norms evaluate(System &system);
-  Norms balance(System &system, Vector force);
-  void  solve_increment(System &system, Result &result);
+  bool   find_stable_state(System &system, Result &result);
+  bool   iterate(System &system, Result &result);
+  void   leave_false_branch(System &system, const Vector &start, Result &result);
+  bool   on_stable_branch(System &system, Result &result);
+  void   observe(const std::vector<double> &residuals);
+  bool   expects_use_of_kept_tangent(const std::vector<double> &residuals) const;
+  bool   kept_tangent_suffices(double residual) const;
+  Norms  linearise(System &system, PhaseTangent tangent);
+  Norms  evaluate(System &system);
+  Norms  balance(System &system, Vector force);
+  void   solve_increment(System &system, Result &result);
+  StepWork work(const System &system, double load_time, const Vector &position, const Vector &phase) const;
+  double error(const Motion &start, const Motion &end, double dt) const;
 
   const Model                        *model_;
   const ShellSpace<degree, spacedim> *space_;

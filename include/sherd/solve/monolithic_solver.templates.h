@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include <sherd/assembly/step_work.h>
 #include <sherd/fracture/branch.h>
 #include <sherd/solve/definiteness.h>
 #include <sherd/solve/monolithic_solver.h>
@@ -14,7 +15,7 @@ namespace sherd
 {
 
 /// The nonlinear system of one step and its present iterate.
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
 struct MonolithicSolver<Model, Integrator>::System
 {
   Stage                    stage;
@@ -93,7 +94,7 @@ struct MonolithicSolver<Model, Integrator>::System
   }
 };
 
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
 MonolithicSolver<Model, Integrator>::MonolithicSolver(const Model &model, const ShellSpace<degree, spacedim> &space,
                                                       const Supports &supports, const Loads<spacedim> &loads,
                                                       const Integrator &integrator, const NewtonSettings &settings)
@@ -107,7 +108,7 @@ MonolithicSolver<Model, Integrator>::MonolithicSolver(const Model &model, const 
 {
 }
 
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
 void MonolithicSolver<Model, Integrator>::rebuild(const StateType &state)
 {
   const auto timing = timers_.measure("set-up");
@@ -120,7 +121,7 @@ void MonolithicSolver<Model, Integrator>::rebuild(const StateType &state)
   total_force_.reset();
 }
 
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
 typename MonolithicSolver<Model, Integrator>::Norms MonolithicSolver<Model, Integrator>::linearise(System      &system,
                                                                                                    PhaseTangent tangent)
 {
@@ -133,7 +134,7 @@ typename MonolithicSolver<Model, Integrator>::Norms MonolithicSolver<Model, Inte
   return balance(system, std::move(force));
 }
 
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
 typename MonolithicSolver<Model, Integrator>::Norms MonolithicSolver<Model, Integrator>::evaluate(System &system)
 {
   const auto timing = timers_.measure("residual");
@@ -142,7 +143,7 @@ typename MonolithicSolver<Model, Integrator>::Norms MonolithicSolver<Model, Inte
   return balance(system, std::move(force));
 }
 
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
 typename MonolithicSolver<Model, Integrator>::Norms MonolithicSolver<Model, Integrator>::balance(System &system,
                                                                                                  Vector  force)
 {
@@ -205,7 +206,7 @@ typename MonolithicSolver<Model, Integrator>::Norms MonolithicSolver<Model, Inte
           std::max(peaks[0], peaks[4]) / settings_.phase_tolerance};
 }
 
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
 void MonolithicSolver<Model, Integrator>::solve_increment(System &system, Result &result)
 {
   SolveReport report;
@@ -237,13 +238,13 @@ namespace internal
 inline constexpr double surely_converged = .5;
 } // namespace internal
 
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
 bool MonolithicSolver<Model, Integrator>::kept_tangent_suffices(double residual) const
 {
   return kept_ && residual * kept_->contraction <= internal::surely_converged;
 }
 
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
 void MonolithicSolver<Model, Integrator>::observe(const std::vector<double> &residuals)
 {
   // Newton's error falls from e to e' = C e^2 / 2; the same tangent takes it from there to C e e' = (2 e' / e) e'.
@@ -253,7 +254,7 @@ void MonolithicSolver<Model, Integrator>::observe(const std::vector<double> &res
         std::max((kept_->fresh ? 2. : 1.) * residuals[n - 1] / residuals[n - 2], settings_.linear.tolerance);
 }
 
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
 bool MonolithicSolver<Model, Integrator>::expects_use_of_kept_tangent(const std::vector<double> &residuals) const
 {
   // Residuals fall quadratically, r_next = r (r / r_before)^2, until the linear solver's tolerance limits them; the
@@ -270,7 +271,7 @@ bool MonolithicSolver<Model, Integrator>::expects_use_of_kept_tangent(const std:
   return expected <= internal::surely_converged || (kept_ && expected * 2. * factor <= internal::surely_converged);
 }
 
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
 bool MonolithicSolver<Model, Integrator>::iterate(System &system, Result &result)
 {
   double              early           = 0.;
@@ -316,7 +317,7 @@ bool MonolithicSolver<Model, Integrator>::iterate(System &system, Result &result
     }
 }
 
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
 void MonolithicSolver<Model, Integrator>::leave_false_branch(System &system, const Vector &start, Result &result)
 {
   // Newton with a positive phase stiffness goes downhill; once its residual is small the consistent tangent finishes.
@@ -346,7 +347,7 @@ void MonolithicSolver<Model, Integrator>::leave_false_branch(System &system, con
     }
 }
 
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
 bool MonolithicSolver<Model, Integrator>::on_stable_branch(System &system, Result &result)
 {
   const auto timing   = timers_.measure("branch check");
@@ -370,7 +371,7 @@ bool MonolithicSolver<Model, Integrator>::on_stable_branch(System &system, Resul
   return positive_definite(*matrix_, spacedim, points);
 }
 
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
 bool MonolithicSolver<Model, Integrator>::find_stable_state(System &system, Result &result)
 {
   const Vector start = system.phase;
@@ -394,56 +395,83 @@ bool MonolithicSolver<Model, Integrator>::find_stable_state(System &system, Resu
   return false;
 }
 
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
 typename MonolithicSolver<Model, Integrator>::Result
 MonolithicSolver<Model, Integrator>::attempt(const StateType &state, double dt)
 {
   const auto   timing      = timers_.measure("step");
   const double previous_dt = state.step_size > 0. ? state.step_size : dt;
-  const Stage  stage       = integrator_.stage(dt, previous_dt);
-  const Motion old{state.position, state.velocity, state.acceleration};
-  Motion       next  = predict(stage, old);
-  Vector       moves = supported_->moves(next.position, state.time + dt);
-  for (std::size_t i = 0; i < moves.local().size(); ++i)
-    if (moves.local()[i] != 0.)
-      move(stage, next, i, moves.local()[i]);
+  const Motion start{state.position, state.velocity, state.acceleration};
+  StateType    end          = state; // of the last stage
+  Vector       phase_before = state.previous_phase;
+  double       elapsed = 0., elapsed_before = previous_dt;
+  Result       result;
+  for (const Stage &stage : integrator_.stages(dt, previous_dt))
+    {
+      const double dt_of_stage = stage.dt - elapsed;
+      Motion       next        = predict(stage, start, {end.position, end.velocity, end.acceleration});
+      const Vector moves       = supported_->moves(next.position, state.time + stage.dt);
+      for (std::size_t i = 0; i < moves.local().size(); ++i)
+        if (moves.local()[i] != 0.)
+          move(stage, next, i, moves.local()[i]);
+      Vector phase = end.phase;
+      for (std::size_t a = 0; a < phase.local().size(); ++a)
+        phase.local()[a] += dt_of_stage / elapsed_before * (end.phase.local()[a] - phase_before.local()[a]);
 
-  Vector phase = state.phase;
-  for (std::size_t a = 0; a < phase.local().size(); ++a)
-    phase.local()[a] += dt / previous_dt * (state.phase.local()[a] - state.previous_phase.local()[a]);
-
-  System system(stage, old, std::move(next), std::move(phase), state.history, supported_->fixed(),
-                assembler_->interfaces().multipliers(), assembler_->evaluate(*loads_, state.time + stage.alpha_f * dt));
-  Result result;
-  if (!find_stable_state(system, result))
-    return result;
-
-  StateType accepted      = state;
-  accepted.position       = system.next.position;
-  accepted.velocity       = system.next.velocity;
-  accepted.acceleration   = system.next.acceleration;
-  accepted.previous_phase = state.phase;
-  accepted.phase          = system.phase;
-  accepted.history        = assembler_->committed(system.level(), state.history);
-  result.withheld_work    = assembler_->withheld_work(system.level(), state.phase, accepted.history);
-  accepted.time           = state.time + dt;
-  accepted.step_size      = dt;
-  accepted.step           = state.step + 1;
-
-  // Work of loads and supports over the step, at the level at which the integrator balances them.
-  for (int i = 0; i < assembler_->distribution()->n_owned(); ++i)
-    for (int c = 0; c < spacedim; ++c)
-      {
-        const int    k    = i * n_fields + c;
-        const double move = accepted.position.local()[i * spacedim + c] - state.position.local()[i * spacedim + c];
-        result.external_work += (supported_->is_held(k) ? total_force_->local()[k] : system.external.local()[k]) * move;
-      }
-  MPI_Allreduce(MPI_IN_PLACE, &result.external_work, 1, MPI_DOUBLE, MPI_SUM, assembler_->distribution()->comm());
-  result.state = std::move(accepted);
+      const double load_time = state.time + stage.alpha_f * stage.dt;
+      System       system(stage, start, std::move(next), std::move(phase), end.history, supported_->fixed(),
+                          assembler_->interfaces().multipliers(), assembler_->evaluate(*loads_, load_time));
+      const int    newton = std::exchange(result.newton, 0);
+      if (!find_stable_state(system, result))
+        return result;
+      result.newton = std::max(result.newton, newton);
+      result.work += work(system, load_time, end.position, end.phase);
+      end.position     = system.next.position;
+      end.velocity     = system.next.velocity;
+      end.acceleration = system.next.acceleration;
+      end.history      = assembler_->committed(system.level(), end.history);
+      result.withheld_work += assembler_->withheld_work(system.level(), end.phase, end.history);
+      phase_before   = std::exchange(end.phase, system.phase);
+      elapsed_before = dt_of_stage;
+      elapsed        = stage.dt;
+      if (stage.has_inertia())
+        result.error = error(start, system.next, dt);
+    }
+  end.previous_phase = state.phase;
+  end.time           = state.time + dt;
+  end.step_size      = dt;
+  end.step           = state.step + 1;
+  result.state       = std::move(end);
   return result;
 }
 
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
+StepWork MonolithicSolver<Model, Integrator>::work(const System &system, double load_time, const Vector &position,
+                                                   const Vector &phase) const
+{
+  return step_work(
+      *assembler_, *loads_, {system.level(), load_time, *total_force_, system.external},
+      [this](std::size_t k) { return supported_->is_held(k); }, difference(system.next.position, position),
+      difference(system.phase, phase));
+}
+
+template <class Model, ImplicitIntegrator Integrator>
+double MonolithicSolver<Model, Integrator>::error(const Motion &start, const Motion &end, double dt) const
+{
+  double largest = 0.;
+  for (int a = 0; a < assembler_->distribution()->n_owned(); ++a)
+    if (!assembler_->interfaces().is_multiplier(a))
+      {
+        double square = 0.;
+        for (int c = 0; c < spacedim; ++c)
+          square += std::pow(displacement_error(start, end, dt, a * spacedim + c), 2);
+        largest = std::max(largest, square);
+      }
+  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, assembler_->distribution()->comm());
+  return std::sqrt(largest) / internal::surface_size(space_->surface());
+}
+
+template <class Model, ImplicitIntegrator Integrator>
 void MonolithicSolver<Model, Integrator>::equilibrate_phase(StateType &state)
 {
   const auto timing = timers_.measure("initial state");
@@ -465,7 +493,7 @@ void MonolithicSolver<Model, Integrator>::equilibrate_phase(StateType &state)
   state.previous_phase = system.phase;
 }
 
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
 void MonolithicSolver<Model, Integrator>::set_initial_acceleration(StateType &state)
 {
   const auto  timing       = timers_.measure("initial state");
@@ -496,7 +524,7 @@ void MonolithicSolver<Model, Integrator>::set_initial_acceleration(StateType &st
       state.acceleration.local()[a * spacedim + c] = acceleration.local()[a * n_fields + c];
 }
 
-template <class Model, TimeIntegrator Integrator>
+template <class Model, ImplicitIntegrator Integrator>
 auto MonolithicSolver<Model, Integrator>::reaction(const std::string &edge) const -> Point<spacedim>
 {
   return total_force_ ? edge_force(*space_, *total_force_, edge) : Point<spacedim>(Point<spacedim>::Zero());
