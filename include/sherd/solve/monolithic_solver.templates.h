@@ -433,7 +433,12 @@ MonolithicSolver<Model, Integrator>::attempt(const StateType &state, double dt)
                           assembler_->interfaces().multipliers(), assembler_->evaluate(*loads_, load_time));
       const int    newton = std::exchange(result.newton, 0);
       if (!find_stable_state(system, result))
-        return result;
+        {
+          // What iterates that went astray asked of the linear solver is no measure of the next attempt.
+          linear_solver_.forget();
+          kept_.reset();
+          return result;
+        }
       result.newton = std::max(result.newton, newton);
       result.work += work(system, load_time, end.position, end.phase);
       end.position     = system.next.position;
