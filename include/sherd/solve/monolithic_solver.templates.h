@@ -112,7 +112,7 @@ void MonolithicSolver<Model, Integrator>::rebuild(const StateType &state)
 {
   const auto timing = timers_.measure("set-up");
   supported_.emplace(*supports_, *space_);
-  assembler_.emplace(*model_, *space_, state.distribution, supported_->ties());
+  assembler_.emplace(*model_, *space_, state.distribution, supported_->ties(), supports_->weak_edges());
   matrix_.emplace(assembler_->make_matrix());
   linear_solver_.forget();
   kept_.reset();
@@ -149,8 +149,8 @@ typename MonolithicSolver<Model, Integrator>::Norms MonolithicSolver<Model, Inte
   // Squared norms over the owned unknowns: residual, load, reaction of the supports, inertia (lumped).
   const auto &interfaces = assembler_->interfaces();
   double      sums[4]    = {0., 0., 0., 0.};
-  double      peaks[5]   = {0., 0., interfaces.sensitivity(), 0., 0.}; // scaled phase residual, extent of the body,
-                                                                       // sensitivity, defects of multipliers
+  double      peaks[5]   = {0., 0., assembler_->sensitivity(), 0., 0.}; // scaled phase residual, extent of the body,
+                                                                        // sensitivity, defects of multipliers
   const int    n_owned = assembler_->distribution()->n_owned();
   const double nan     = std::numeric_limits<double>::quiet_NaN();
   for (int i = 0; i < n_owned; ++i)
@@ -437,6 +437,7 @@ MonolithicSolver<Model, Integrator>::attempt(const StateType &state, double dt)
         const double move = accepted.position.local()[i * spacedim + c] - state.position.local()[i * spacedim + c];
         result.external_work += (supported_->is_held(k) ? total_force_->local()[k] : system.external.local()[k]) * move;
       }
+  result.external_work += assembler_->weak_edges().work(system.position, state.time, accepted.time);
   MPI_Allreduce(MPI_IN_PLACE, &result.external_work, 1, MPI_DOUBLE, MPI_SUM, assembler_->distribution()->comm());
   result.state = std::move(accepted);
   return result;
@@ -472,9 +473,8 @@ void MonolithicSolver<Model, Integrator>::set_initial_acceleration(StateType &st
   Vector      force(distribution, n_fields), residual(distribution, n_fields), acceleration(distribution, n_fields);
   Vector      zero = state.acceleration;
   zero.fill(0.);
-  const BalanceLevel level{state.position, zero, state.phase};
-  assembler_->force(level, state.history, force);
-  assembler_->external_force(level, assembler_->evaluate(*loads_, state.time), residual);
+  assembler_->force({state.position, zero, state.phase}, state.history, assembler_->evaluate(*loads_, state.time),
+                    force, residual);
   const auto &interfaces = assembler_->interfaces();
   for (std::size_t k = 0; k < residual.owned().size(); ++k)
     residual.local()[k] = supported_->fixed()[k] || k % n_fields == spacedim || interfaces.is_multiplier(k / n_fields)
