@@ -34,9 +34,9 @@ public:
   /// What it remembers, for checkpoints [energy].
   struct State
   {
-    double       initial = 0.; ///< sum of the energies at the start
-    Energies     now;
-    ExternalWork work;
+    double       initial      = 0.; ///< sum of the energies at the start
+    Energies     now          = {};
+    ExternalWork work         = {};
     double       irreversible = 0., dissipation = 0., inertial_dissipation = 0., refinement = 0., largest = 0.;
   };
 
@@ -44,8 +44,10 @@ public:
   explicit EnergyBalance(const State &state) : state_(state) {}
 
   /// @param initial   energies at the start of the run
-  explicit EnergyBalance(const Energies &initial) : state_{.initial = total(initial), .now = initial}
+  explicit EnergyBalance(const Energies &initial)
   {
+    state_.initial = total(initial);
+    state_.now     = initial;
     note_largest();
   }
 
