@@ -148,7 +148,6 @@ EnergyBalance follow(const Environment &env, Solver &solver, State<2, 3> &state,
       StepSummary step{.dt = dt, .newton = result.newton, .error = result.error};
       step.work          = result.work;
       step.withheld_work = result.withheld_work;
-      step.before        = solver.energies(state);
       step.energies      = solver.energies(*result.state);
       book.add(step);
       state = std::move(*result.state);

@@ -54,9 +54,10 @@ public:
   /// Adds an accepted step.
   void add(const StepSummary &step)
   {
-    state_.refinement += total(step.before) - total(state_.now);
-    state_.dissipation += step.work.internal - (total(step.energies) - total(step.before)) - step.withheld_work;
-    state_.inertial_dissipation += step.work.inertial - (step.energies.kinetic - step.before.kinetic);
+    const Energies before = step.before.value_or(state_.now);
+    state_.refinement += total(before) - total(state_.now);
+    state_.dissipation += step.work.internal - (total(step.energies) - total(before)) - step.withheld_work;
+    state_.inertial_dissipation += step.work.inertial - (step.energies.kinetic - before.kinetic);
     state_.now = step.energies;
     state_.work += step.work.external;
     state_.irreversible += step.withheld_work;
