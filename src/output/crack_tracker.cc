@@ -31,12 +31,13 @@ std::vector<int> CrackTracker::ends_inside() const
 }
 
 void CrackTracker::join(const std::vector<int> &patch_of_arm, const std::vector<char> &self_joined,
-                        const std::vector<Eigen::Vector3d> &broken)
+                        const Pruning &pruning)
 {
+  const auto &broken = pruning.cut_points;
   if (broken.empty())
     return;
   const double        l0        = options_.length_scale;
-  const auto          crossings = connected_parts(broken, .5 * l0);
+  const auto          crossings = connected_parts({broken.begin(), broken.end()}, .5 * l0);
   std::vector<CutEnd> ends;
   for (std::size_t a = 0; a < cracks_.arms.size(); ++a)
     for (const int node : cracks_.arms[a].nodes)
@@ -54,7 +55,7 @@ void CrackTracker::join(const std::vector<int> &patch_of_arm, const std::vector<
           if (crossing >= 0)
             ends.push_back({node, patch_of_arm[a], crossing});
         }
-  join_cracks(cracks_, patch_of_arm, ends, self_joined, {4. * l0, 2. * l0});
+  join_cracks(cracks_, patch_of_arm, ends, self_joined, {4. * l0, 2. * l0}, pruning);
 }
 
 } // namespace sherd

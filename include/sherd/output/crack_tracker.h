@@ -78,8 +78,7 @@ public:
 private:
   std::vector<Eigen::Vector3d> branch_points() const;
   std::vector<int>             ends_inside() const;
-  void                         join(const std::vector<int> &patch_of_arm, const std::vector<char> &self_joined,
-                                    const std::vector<Eigen::Vector3d> &broken);
+  void join(const std::vector<int> &patch_of_arm, const std::vector<char> &self_joined, const Pruning &pruning);
 
   CrackOptions                 options_;
   std::vector<SampleLattice>   lattices_;

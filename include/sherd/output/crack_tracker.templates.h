@@ -214,9 +214,10 @@ void CrackTracker::update(const Surface<degree, spacedim> &surface, const Eigen:
   if (phase.size() != surface.n_control_points())
     throw DimensionMismatch("crack tracker: " + std::to_string(phase.size()) + " phase values for " +
                             std::to_string(surface.n_control_points()) + " control points");
-  const auto    known = branch_points();
-  const double  l0    = options_.length_scale;
-  const Pruning pruning{4. * l0, 2. * l0, 2. * l0, known};
+  const auto    known  = branch_points();
+  const auto    broken = internal::broken_interface_points(surface, phase, lattices_, options_.threshold);
+  const double  l0     = options_.length_scale;
+  const Pruning pruning{4. * l0, 2. * l0, 2. * l0, known, broken};
   cracks_ = {};
   std::vector<int>  patch_of_arm;
   std::vector<char> self_joined(surface.n_patches(), 0);
@@ -253,7 +254,7 @@ void CrackTracker::update(const Surface<degree, spacedim> &surface, const Eigen:
         cracks_.append(crack_graph(grid, field, pruning));
       patch_of_arm.resize(cracks_.arms.size(), p);
     }
-  join(patch_of_arm, self_joined, internal::broken_interface_points(surface, phase, lattices_, options_.threshold));
+  join(patch_of_arm, self_joined, pruning);
   tree_.advance(cracks_, ends_inside(), time);
 }
 
