@@ -13,7 +13,7 @@ using namespace sherd::test;
 namespace
 {
 
-constexpr double time = .3;
+constexpr double now = .3;
 
 /// A quarter of a roof whose sides are all held weakly or level in some way; x = 2 and y = 0 are planes of symmetry.
 Supports weak_supports()
@@ -107,14 +107,14 @@ struct WeakRoof
   }
 
   /// Force on all ranks.
-  Eigen::VectorXd force(const State<2, 3> &at, double t = time) const
+  Eigen::VectorXd force(const State<2, 3> &at, double t = now) const
   {
     Vector f(state.distribution, 4), external = f;
     assembler.force({at.position, at.acceleration, at.phase}, at.history, at_time(t), f, external);
     return on_all_ranks(f);
   }
 
-  double energy(const State<2, 3> &at, double t = time) const
+  double energy(const State<2, 3> &at, double t = now) const
   {
     return assembler.energies(at.position, at.velocity, at.phase, t).constraint;
   }
@@ -124,7 +124,7 @@ struct WeakRoof
     Vector f(state.distribution, 4), external = f;
     Matrix K = assembler.make_matrix();
     assembler.linearise({state.position, state.acceleration, state.phase}, state.history, 0., PhaseTangent::consistent,
-                        at_time(time), f, external, K);
+                        at_time(now), f, external, K);
     return dense(K);
   }
 };
@@ -167,16 +167,16 @@ TEST_CASE("Weak edges: what turns does work, and its rate is that of the forces"
 {
   const WeakRoof roof(MPI_COMM_WORLD, weak_supports(), true);
   Vector         rate(roof.state.distribution, 4);
-  roof.assembler.weak_edges().add_force_rate(roof.state.position, time, rate);
+  roof.assembler.weak_edges().add_force_rate(roof.state.position, now, rate);
   const auto slope =
-      verify::check_derivative([&](double h) { return roof.force(roof.state, time + h); }, roof.on_all_ranks(rate));
+      verify::check_derivative([&](double h) { return roof.force(roof.state, now + h); }, roof.on_all_ranks(rate));
   CAPTURE(slope.order, slope.smallest_defect);
   CHECK(slope.passed());
 
-  double work = roof.assembler.weak_edges().work(roof.state.position, .1, time);
+  double work = roof.assembler.weak_edges().work(roof.state.position, .1, now);
   MPI_Allreduce(MPI_IN_PLACE, &work, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
   CHECK(std::abs(work) > 1e-4);
-  CHECK(work == Approx(roof.energy(roof.state, time) - roof.energy(roof.state, .1)).epsilon(1e-10));
+  CHECK(work == Approx(roof.energy(roof.state, now) - roof.energy(roof.state, .1)).epsilon(1e-10));
 }
 
 TEST_CASE("Weak edges: the reference surface of a phase field without slope is free of their forces")
