@@ -30,17 +30,19 @@ std::vector<int> CrackTracker::ends_inside() const
   return result;
 }
 
-void CrackTracker::join(const std::vector<int> &patch_of_arm, const std::vector<char> &self_joined,
+void CrackTracker::join(PatchedCracks cracks, const std::vector<char> &self_joined, const std::vector<BrokenRun> &runs,
                         const Pruning &pruning)
 {
+  const double l0 = options_.length_scale;
+  merge_bands(cracks, runs, l0, pruning);
+  cracks_            = std::move(cracks.graph);
   const auto &broken = pruning.cut_points;
   if (broken.empty())
     return;
-  const double        l0        = options_.length_scale;
   const auto          crossings = connected_parts({broken.begin(), broken.end()}, .5 * l0);
   std::vector<CutEnd> ends;
-  for (std::size_t a = 0; a < cracks_.arms.size(); ++a)
-    for (const int node : cracks_.arms[a].nodes)
+  for (const auto &arm : cracks_.arms)
+    for (const int node : arm.nodes)
       if (node >= 0 && cracks_.nodes[node].degree == 1)
         {
           const auto &X        = cracks_.nodes[node].point.X;
@@ -53,9 +55,9 @@ void CrackTracker::join(const std::vector<int> &patch_of_arm, const std::vector<
                 crossing = crossings[k];
               }
           if (crossing >= 0)
-            ends.push_back({node, patch_of_arm[a], crossing});
+            ends.push_back({node, cracks.patch_of_node[node], crossing});
         }
-  join_cracks(cracks_, patch_of_arm, ends, self_joined, {4. * l0, 2. * l0}, pruning);
+  join_cracks(cracks_, cracks.patch_of_arm, ends, self_joined, {4. * l0, 2. * l0}, pruning);
 }
 
 } // namespace sherd

@@ -321,9 +321,11 @@ void join_cracks(CrackGraph &graph, const std::vector<int> &patch_of_arm, const 
     for (std::size_t j = i + 1; j < ends.size(); ++j)
       {
         const bool   same     = ends[i].patch == ends[j].patch;
+        const bool   on_one   = ends[i].patch < 0 || ends[j].patch < 0; // an interface
+        const bool   may_join = !same || on_one || self_joined[ends[i].patch];
         const double distance = (joiner.X(ends[i].node) - joiner.X(ends[j].node)).norm();
-        if (ends[i].crossing == ends[j].crossing && distance <= distances.reach &&
-            (!same || (self_joined[ends[i].patch] && joiner.arm_of(ends[i].node) != joiner.arm_of(ends[j].node))))
+        if (ends[i].crossing == ends[j].crossing && distance <= distances.reach && may_join &&
+            ((!same && !on_one) || joiner.arm_of(ends[i].node) != joiner.arm_of(ends[j].node)))
           pairs.push_back({same, distance, i, j});
       }
   std::sort(pairs.begin(), pairs.end(), [](const Pair &a, const Pair &b) {
@@ -338,7 +340,7 @@ void join_cracks(CrackGraph &graph, const std::vector<int> &patch_of_arm, const 
         joiner.join(ends[pair.first].node, ends[pair.second].node, distances.trim);
       }
   for (std::size_t i = 0; i < ends.size(); ++i)
-    if (!joined[i])
+    if (!joined[i] && ends[i].patch >= 0)
       joiner.branch(ends[i].node, ends[i].patch, distances.reach);
   joiner.prune(pruning);
   joiner.finish();
