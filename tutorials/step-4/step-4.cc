@@ -229,7 +229,7 @@ struct Crossings
           ((here(.5 * (low + high)) > 0.) == (last_->w > 0.) ? low : high) = .5 * (low + high);
         times.push_back(last_->t + low * dt);
       }
-    last_ = Point{t, w, v};
+    last_ = Sample{t, w, v};
   }
 
   // Angular frequency from the first crossing to the last.
@@ -239,11 +239,11 @@ struct Crossings
   }
 
 private:
-  struct Point
+  struct Sample
   {
     double t, w, v;
   };
-  std::optional<Point> last_;
+  std::optional<Sample> last_;
 };
 
 // A simply supported square plate swings in its first mode, from rest. Its frequency is known, pi^2 * 2 for width,

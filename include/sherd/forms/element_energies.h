@@ -81,7 +81,8 @@ Energies element_energies(const Model &model, const ElementData<Model> &data, co
           const double g    = model.degradation.value(p.phi);
           const auto   flat = model.split.respond(
                 internal::without_bending(surface_point(data.reference[q], p.frame), data.reference[q]));
-          sum.bending += reference.dA * (internal::degraded_energy(p.response, g) - internal::degraded_energy(flat, g));
+          sum.bending += reference.dA * (internal::degraded_energy(p.response, g) -
+                                         data.stiffness[q] * internal::degraded_energy(flat, g));
         }
       sum.kinetic += reference.dA * .5 * model.mass * p.inertia.squaredNorm();
       const double crack =
