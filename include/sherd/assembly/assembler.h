@@ -9,6 +9,7 @@
 #include <sherd/assembly/scatter.h>
 #include <sherd/assembly/tied_elements.h>
 #include <sherd/forms/element_energies.h>
+#include <sherd/forms/orientation.h>
 #include <sherd/forms/shell_element.h>
 #include <sherd/geometry/edge_geometry.h>
 #include <sherd/material/wave_speeds.h>
@@ -129,6 +130,9 @@ public:
 
   /// Elements with suspect quadrature points, theory C.2 1. Local.
   SuspectElements suspects(const BalanceLevel &level, const QuadratureField &history) const;
+
+  /// Number of owned active elements that turn inside out from position @p before to @p after (keeps_orientation).
+  int n_turned(const Vector &before, const Vector &after) const;
 
   /// int_e Psi dA / int_e dA with Psi = g Psi+ + Psi- (elastic) and Psi_frac (fracture) of every owned active element.
   struct ElementDensities

@@ -431,6 +431,21 @@ SuspectElements Assembler<Model>::suspects(const BalanceLevel &level, const Quad
 }
 
 template <class Model>
+int Assembler<Model>::n_turned(const Vector &before, const Vector &after) const
+{
+  const Vector no_phase(distribution_, 1);
+  int          n = 0;
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    if (space_->distribution().owns[e])
+      {
+        // Two positions side by side: the earlier one takes the place of the acceleration.
+        const auto f = fields(static_cast<int>(e), after, before, no_phase);
+        n += !keeps_orientation<Model>(elements_[e], f.acceleration, f.position);
+      }
+  return n;
+}
+
+template <class Model>
 std::vector<typename Assembler<Model>::ElementDensities> Assembler<Model>::densities(const Vector &position,
                                                                                      const Vector &phase) const
 {

@@ -42,7 +42,8 @@ struct StepResult
 ///
 /// A step: predictor (constant velocity, linearly extrapolated phase), Newton on
 /// (dy, dphi) with dy = alpha_f dx (theory F.2), branch check; if the check fails a branch switch at the same step size
-/// (theory C.2). A state that fails both, or that does not converge, or that is not finite is never returned.
+/// (theory C.2). A state that fails both, or that does not converge, or that is not finite, or in which an element has
+/// turned inside out, is never returned.
 ///
 /// Where one more solve with the tangent at hand, of an earlier iterate or step, should meet the tolerance, it is not
 /// assembled anew (theory F.2). n_NR counts the iterations with a tangent of their own, and the last one in any case,

@@ -372,6 +372,16 @@ bool MonolithicSolver<Model, Integrator>::on_stable_branch(System &system, Resul
 }
 
 template <class Model, ImplicitIntegrator Integrator>
+bool MonolithicSolver<Model, Integrator>::keeps_orientation(const System &system, Result &result) const
+{
+  int n = assembler_->n_turned(system.old.position, system.next.position);
+  MPI_Allreduce(MPI_IN_PLACE, &n, 1, MPI_INT, MPI_SUM, assembler_->distribution()->comm());
+  if (n > 0)
+    result.failure = std::to_string(n) + " elements turned inside out";
+  return n == 0;
+}
+
+template <class Model, ImplicitIntegrator Integrator>
 bool MonolithicSolver<Model, Integrator>::find_stable_state(System &system, Result &result)
 {
   const Vector start = system.phase;
@@ -380,12 +390,12 @@ bool MonolithicSolver<Model, Integrator>::find_stable_state(System &system, Resu
       if (!iterate(system, result))
         return false;
       if (on_stable_branch(system, result))
-        return true;
+        return keeps_orientation(system, result);
       leave_false_branch(system, start, result);
       if (!iterate(system, result))
         return false;
       if (on_stable_branch(system, result))
-        return true;
+        return keeps_orientation(system, result);
       result.failure = "the step converged to the unstable branch of the phase equation, also after a branch switch";
     }
   catch (const NoConvergence &error)
