@@ -43,7 +43,4 @@ struct Case
 /// Sections that a restart may repeat but not change: body, mesh and model.
 const std::vector<std::string> &model_sections();
 
-/// Text of --list: every policy and shape with a line on what it is.
-std::string list_of_choices();
-
 } // namespace sherd

@@ -136,7 +136,7 @@ public:
                     controller);
     while (state.time < prm_.time.end)
       {
-        run.step([&] { return adaptivity.advance(solver, surface_, space_, state, controller, end_of_step(state)); });
+        run.step([&] { return adaptivity.advance(solver, surface_, space_, state, controller, prm_.time.end); });
         if (!prm_.stop.any())
           continue;
         if (const auto reason = reason_to_stop(prm_.stop, space_, state, run.memory()))
@@ -154,13 +154,9 @@ private:
   Solver make_solver()
   {
     using Monolithic = MonolithicSolver<Model, AnyIntegrator>;
-    return Solver(std::make_unique<Monolithic>(model_, space_, supports_, loads_, integrator_, prm_.newton));
-  }
-
-  /// What the next step must not pass.
-  double end_of_step(const State<degree, spacedim> &state) const
-  {
-    return prm_.time.largest_step ? std::min(prm_.time.end, state.time + *prm_.time.largest_step) : prm_.time.end;
+    return Solver(std::make_unique<Monolithic>(model_, space_, supports_, loads_, integrator_, prm_.newton),
+                  {.by_waves = has_inertia(),
+                   .largest  = prm_.time.largest_step.value_or(std::numeric_limits<double>::infinity())});
   }
 
   Environment                  env_;

@@ -81,8 +81,8 @@ public:
   /// A checkpoint of the present step, beside those that are written when they are due.
   void write_checkpoint() { checkpoints_.write(solver_, space_, state_, controller_, recorder_); }
 
-  /// The end of the run: writes summary.json.
-  void finish() { recorder_.finish(solver_, "done"); }
+  /// The end of the run: writes summary.json. @param ending   what ended it
+  void finish(const std::string &ending = "done") { recorder_.finish(solver_, ending); }
 
   /// Last row of history.csv, totals, and on rank 0 the cracks.
   RecorderMemory memory() const { return recorder_.memory(solver_); }
