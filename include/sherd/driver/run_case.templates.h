@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include <sherd/adapt/adaptivity.h>
+#include <sherd/base/parameters.h>
 #include <sherd/driver/case_model.h>
 #include <sherd/driver/case_solver.h>
 #include <sherd/driver/make_surface.h>
@@ -63,14 +64,7 @@ public:
         model_(make_model<degree, spacedim>(prm)),
         cracks_(make_cracks(prm, blank_)),
         integrator_(prm.time.make_integrator()),
-        space_(env, surface_, prm.surface.continuity.make()),
-        recording_{.crack    = {.length_scale   = prm.fracture.length_scale,
-                                .rayleigh_speed = 0., // see below
-                                .target_size    = prm.refinement.target},
-                   .end_time = prm.time.end,
-                   .frames   = prm.output.frames,
-                   .points   = internal::make_probes<spacedim>(prm.output),
-                   .edges    = prm.output.reactions}
+        space_(env, surface_, prm.surface.continuity.make())
   {
     for (std::size_t i = 0; i < prm.supports.size(); ++i)
       {
@@ -87,8 +81,13 @@ public:
       }
     internal::check_edges(blank_, "output.reactions", prm.output.reactions);
     internal::check_edges(blank_, "stop.crack_at", prm.stop.crack_at);
-    recording_.crack.rayleigh_speed =
-        wave_speeds(model_.split.bulk(), model_.split.shear(), model_.mass).rayleigh;
+    recording_.crack    = {.length_scale   = prm.fracture.length_scale,
+                           .rayleigh_speed = wave_speeds(model_.split.bulk(), model_.split.shear(), model_.mass).rayleigh,
+                           .target_size    = prm.refinement.target};
+    recording_.end_time = prm.time.end;
+    recording_.frames   = prm.output.frames;
+    recording_.points   = internal::make_probes<spacedim>(prm.output);
+    recording_.edges    = prm.output.reactions;
   }
 
   /// Builds what a run builds first on the mesh before refinement: formulas, edges and points are evaluated.
