@@ -73,7 +73,12 @@ std::vector<ChoiceGroup> choice_groups()
         {"bathe", "two stages, trapezoidal and backward"},
         {"implicit_midpoint", "no dissipation"},
         {"backward_euler", "first order, strong dissipation"},
-        {"quasi_static", "no inertia"}}},
+        {"quasi_static", "no inertia"},
+        {"central_difference", "explicit, with solver explicit"}}},
+      {"solver",
+       {{"monolithic", "displacement and phase together, full Newton"},
+        {"staggered", "alternately, for quasi-static cracks that run unstably"},
+        {"explicit", "lumped mass, small steps"}}},
   };
 }
 

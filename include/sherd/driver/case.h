@@ -16,6 +16,14 @@
 namespace sherd
 {
 
+/// How the equations of a step are solved.
+enum class SolverChoice
+{
+  monolithic,
+  staggered,
+  explicit_
+};
+
 /// Everything a case file says.
 struct Case
 {
@@ -27,6 +35,7 @@ struct Case
   std::vector<SupportParameters> supports;
   std::vector<LoadParameters>    loads;
   TimeParameters                 time;
+  SolverChoice                   solver = SolverChoice::monolithic;
   NewtonSettings                 newton;
   RefinementSettings             refinement;
   StopParameters                 stop;

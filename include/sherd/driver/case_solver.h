@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include <sherd/solve/monolithic_solver.h>
+#include <sherd/solve/step_solver.h>
 
 namespace sherd
 {
@@ -29,7 +29,7 @@ public:
   using StateType               = State<degree, spacedim>;
   using Result                  = StepResult<degree, spacedim>;
 
-  template <class Solver>
+  template <StepSolver Solver>
   CaseSolver(std::unique_ptr<Solver> solver, const StepBounds &bounds)
       : solver_(std::make_unique<Chosen<Solver>>(std::move(solver))), bounds_(bounds)
   {

@@ -4,7 +4,7 @@
 
 #include <sherd/adapt/adaptivity.h>
 #include <sherd/base/parameters.h>
-#include <sherd/driver/case_model.h>
+#include <sherd/driver/case_kernel.h>
 #include <sherd/driver/case_solver.h>
 #include <sherd/driver/make_surface.h>
 #include <sherd/driver/run_case.h>
@@ -63,7 +63,6 @@ public:
         surface_(blank_),
         model_(make_model<degree, spacedim>(prm)),
         cracks_(make_cracks(prm, blank_)),
-        integrator_(prm.time.make_integrator()),
         space_(env, surface_, prm.surface.continuity.make())
   {
     for (std::size_t i = 0; i < prm.supports.size(); ++i)
@@ -152,10 +151,24 @@ private:
 
   Solver make_solver()
   {
-    using Monolithic = MonolithicSolver<Model, AnyIntegrator>;
-    return Solver(std::make_unique<Monolithic>(model_, space_, supports_, loads_, integrator_, prm_.newton),
-                  {.by_waves = has_inertia(),
-                   .largest  = prm_.time.largest_step.value_or(std::numeric_limits<double>::infinity())});
+    const StepBounds bounds{.by_waves = has_inertia(),
+                            .largest  = prm_.time.largest_step.value_or(std::numeric_limits<double>::infinity())};
+    switch (prm_.solver)
+      {
+      case SolverChoice::explicit_:
+        return {std::make_unique<ExplicitSolver<Model>>(model_, space_, supports_, loads_, CentralDifference(),
+                                                        prm_.newton),
+                bounds};
+      case SolverChoice::staggered:
+        return {std::make_unique<StaggeredSolver<Model, AnyIntegrator>>(model_, space_, supports_, loads_,
+                                                                        prm_.time.make_integrator(), prm_.newton),
+                bounds};
+      case SolverChoice::monolithic:
+        break;
+      }
+    return {std::make_unique<MonolithicSolver<Model, AnyIntegrator>>(model_, space_, supports_, loads_,
+                                                                     prm_.time.make_integrator(), prm_.newton),
+            bounds};
   }
 
   Environment                  env_;
@@ -163,7 +176,6 @@ private:
   Surface<degree, spacedim>    blank_, surface_;
   Model                        model_;
   PreCrack<spacedim>           cracks_;
-  AnyIntegrator                integrator_;
   Supports                     supports_;
   Loads<spacedim>              loads_;
   ShellSpace<degree, spacedim> space_;
