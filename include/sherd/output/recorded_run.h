@@ -82,8 +82,8 @@ public:
   /// A checkpoint of the present step, beside those that are written when they are due.
   void write_checkpoint() { checkpoints_.write(solver_, space_, state_, controller_, memory()); }
 
-  /// The end of the run: writes summary.json.
-  void finish() { recorder_.finish(source_, "done"); }
+  /// The end of the run: writes summary.json. @param ending   what ended it
+  void finish(const std::string &ending = "done") { recorder_.finish(source_, ending); }
 
   /// Last row of history.csv, totals, and on rank 0 the cracks.
   RecorderMemory memory() { return recorder_.memory(source_); }
