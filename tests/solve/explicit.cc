@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include <sherd/geometry/split.h>
 #include <sherd/solve/critical_step.h>
 #include <sherd/time/central_difference.h>
 
@@ -46,9 +47,9 @@ double largest_frequency(const Model &model, const ShellSpace<Model::degree, Mod
 {
   constexpr int                                           n_fields = Model::n_fields;
   const SupportedUnknowns<Model::degree, Model::spacedim> supported(supports, space);
-  const Assembler<Model> assembler(model, space, state.distribution, supported.ties());
-  Matrix                 stiffness = assembler.make_matrix(), mass = stiffness;
-  Vector                 force(state.distribution, n_fields), rest = state.acceleration;
+  const Assembler<Model>                                  assembler(model, space, state.distribution, supported.ties());
+  Matrix                                                  stiffness = assembler.make_matrix(), mass = stiffness;
+  Vector force(state.distribution, n_fields), rest = state.acceleration;
   rest.fill(0.);
   assembler.linearise({state.position, rest, state.phase}, state.history, 0., PhaseTangent::consistent, force,
                       stiffness);
@@ -67,8 +68,7 @@ double largest_frequency(const Model &model, const ShellSpace<Model::degree, Mod
       unit.local()[unknowns[j]] = 1.;
       stiffness.multiply(unit, column);
       for (Eigen::Index i = 0; i < n; ++i)
-        A(i, j) =
-            column.local()[unknowns[i]] / std::sqrt(lumped.local()[unknowns[i]] * lumped.local()[unknowns[j]]);
+        A(i, j) = column.local()[unknowns[i]] / std::sqrt(lumped.local()[unknowns[i]] * lumped.local()[unknowns[j]]);
     }
   return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues()[n - 1]);
 }
@@ -135,8 +135,8 @@ TEST_CASE("The explicit limit is proportional to h in a membrane and to h^2 in b
 TEST_CASE("Central differences are stable below the limit and not above it")
 {
   // The scheme by itself, so that it may go beyond what the solver allows.
-  Explicit     body(unbreakable.model(), {2., 1.}, {6, 4}, {}, held(), {}, CentralDifference());
-  const double limit = 2. / largest_frequency(body.model, body.space, body.supports, body.state);
+  Explicit                      body(unbreakable.model(), {2., 1.}, {6, 4}, {}, held(), {}, CentralDifference());
+  const double                  limit = 2. / largest_frequency(body.model, body.space, body.supports, body.state);
   const SupportedUnknowns<2, 2> supported(body.supports, body.space);
   const auto                   &assembler = body.solver.assembler();
   Matrix                        matrix    = assembler.make_matrix();
@@ -207,8 +207,8 @@ TEST_CASE("Explicit motion is of second order in time, also under changing steps
     Explicit body(Units{100., .2, 1e10}.model(), {2., 1.}, {3, 2}, {}, held(), {}, CentralDifference());
     for (int a = 0; a < body.state.distribution->n_local(); ++a)
       {
-        const auto X                       = body.reference(a);
-        body.state.velocity.local()[2 * a] = 4. * .3 * X[0] * std::cos(X[1]);
+        const auto X                           = body.reference(a);
+        body.state.velocity.local()[2 * a]     = 4. * .3 * X[0] * std::cos(X[1]);
         body.state.velocity.local()[2 * a + 1] = X[0] * X[0];
       }
     body.solver.set_initial_acceleration(body.state);
@@ -276,11 +276,10 @@ TEST_CASE("An explicit plate tears as an implicit one does")
     const auto e = body.solver.energies(body.state);
     return std::array{e.fracture - start, e.elastic()};
   };
-  NewtonSettings settings;
-  Explicit       torn(Units().model(), {8., 6.}, {12, 9}, settings, supports, {}, CentralDifference());
-  const auto     by_forces = run(torn, torn.solver.largest_step());
-  Body<Glass, AnyIntegrator> implicit(Units().model(), {8., 6.}, {12, 9}, settings, supports, {},
-                                      GeneralizedAlpha(.8));
+  NewtonSettings             settings;
+  Explicit                   torn(Units().model(), {8., 6.}, {12, 9}, settings, supports, {}, CentralDifference());
+  const auto                 by_forces = run(torn, torn.solver.largest_step());
+  Body<Glass, AnyIntegrator> implicit(Units().model(), {8., 6.}, {12, 9}, settings, supports, {}, GeneralizedAlpha(.8));
   const auto                 by_newton = run(implicit, 1e-3);
   CAPTURE(by_forces[0], by_newton[0], by_forces[1], by_newton[1]);
   REQUIRE(by_newton[0] > .3);
@@ -291,10 +290,11 @@ TEST_CASE("An explicit plate tears as an implicit one does")
 
 TEST_CASE("Multipliers have no mass: the explicit solver refuses them")
 {
-  const Environment env(MPI_COMM_WORLD);
-  const auto        surface = split_patches(shapes::plate<2, 3>({1., 1.}, {4, 4}), {2, 1});
-  const models::Shell model(split::SurfaceStretch(material::NeoHooke(1., .6), material::Canham(1e-3), {.thickness = .01}),
-                            degradation::Cubic(1e-4), {}, 1., .2, 1.);
+  const Environment   env(MPI_COMM_WORLD);
+  const auto          surface = split_patches(shapes::plate<2, 3>({1., 1.}, {4, 4}), {2, 1});
+  const models::Shell model(
+      split::SurfaceStretch(material::NeoHooke(1., .6), material::Canham(1e-3), {.thickness = .01}),
+      degradation::Cubic(1e-4), {}, 1., .2, 1.);
   const ShellSpace<2, 3>        space(env, surface, continuity::LagrangeMultiplier());
   const Supports                none;
   const Loads<3>                loads;

@@ -106,8 +106,8 @@ TEST_CASE("All nonlinear solvers find the same steps of a cracking plate")
     // The plate is opened by 0.03, the phase falls by about one.
     CHECK(largest_difference(newton.position, other.position) < 1e-8);
     CHECK(largest_difference(newton.phase, other.phase) < 1e-5);
-    WARN(name << " " << other.newton << " tangents " << other.tangents << " alternations " << other.alternations << " differences "
-              << largest_difference(newton.position, other.position) << " "
+    WARN(name << " " << other.newton << " tangents " << other.tangents << " alternations " << other.alternations
+              << " differences " << largest_difference(newton.position, other.position) << " "
               << largest_difference(newton.phase, other.phase));
   };
   check("newton", newton);
@@ -146,7 +146,7 @@ TEST_CASE("A failed step leaves nothing behind, also after its first stage")
         if (with_failures)
           {
             // Supports that go nowhere from the middle of the step on: the first stage succeeds.
-            auto bad     = body.supports;
+            auto bad      = body.supports;
             body.supports = Supports();
             body.supports.prescribe("top", Component::y, [t = body.state.time, dt](double time) {
               return time > t + .9 * dt ? std::nan("") : .5 * time;
