@@ -8,9 +8,12 @@
 #include <sherd/assembly/load_values.h>
 #include <sherd/assembly/scatter.h>
 #include <sherd/assembly/tied_elements.h>
+#include <sherd/assembly/weak_edge_terms.h>
 #include <sherd/forms/element_energies.h>
+#include <sherd/forms/orientation.h>
 #include <sherd/forms/shell_element.h>
 #include <sherd/geometry/edge_geometry.h>
+#include <sherd/material/wave_speeds.h>
 #include <sherd/state/state.h>
 
 namespace sherd
@@ -31,10 +34,12 @@ struct SuspectElements
   double           largest_phase = 0.; ///< on this rank
 };
 
-/// The element loop: brings the weak forms of a model to distributed vectors and matrices, those on interfaces too.
+/// The element loop: brings the weak forms of a model to distributed vectors and matrices, those on interfaces and
+/// edges too.
 ///
-/// Caches the geometry and the toughness of the active elements, so it belongs to one mesh and one distribution: make
-/// a new one after each refinement. Threads: OMP_NUM_THREADS. The results do not depend on their number.
+/// Caches the geometry, the toughness and the stiffness of the active elements, so it belongs to one mesh and one
+/// distribution: make a new one after each refinement. Threads: OMP_NUM_THREADS. The results do not depend on their
+/// number.
 template <class Model>
 class Assembler
 {
@@ -46,10 +51,13 @@ public:
 
   /// Model and space have to outlive the assembler. What acts on tied control values acts on their masters; their own
   /// rows and columns are empty but for a 1 on the diagonal. Collective.
-  /// @param ties   of the surface of @p space
-  /// @throws InvalidParameter   a degenerate element, a toughness that is not positive: on all ranks
+  /// @param ties         of the surface of @p space
+  /// @param weak_edges   Supports::weak_edges()
+  /// @throws InvalidParameter   a degenerate element, a toughness or stiffness that is not positive; from InterfaceTerms
+  ///                            and WeakEdgeTerms: on all ranks
   Assembler(const Model &model, const ShellSpace<degree, spacedim> &space,
-            std::shared_ptr<const Distribution> distribution, const std::vector<Tie> &ties = {});
+            std::shared_ptr<const Distribution> distribution, const std::vector<Tie> &ties = {},
+            const std::vector<Supports::WeakEdge> &weak_edges = {});
 
   const Model                               &model() const { return *model_; }
   const ShellSpace<degree, spacedim>        &space() const { return *space_; }
@@ -57,6 +65,16 @@ public:
 
   /// Shortest element edge of the whole reference surface [length], theory F.3.
   double shortest_edge() const { return shortest_edge_; }
+
+  /// Largest factor of the moduli at a quadrature point of the whole surface.
+  double largest_stiffness() const { return largest_stiffness_; }
+
+  /// Wave speeds of the undamaged surface where it is stiffest: they bound steps and speeds everywhere (theory F.3).
+  WaveSpeeds fastest_waves() const
+  {
+    return wave_speeds(largest_stiffness_ * model_->split.bulk(), largest_stiffness_ * model_->split.shear(),
+                       model_->mass);
+  }
 
   /// int Gc/(2 l0) N_A dA of every owned control point, the scale of its phase residual (theory F.2), shape=(n_owned).
   const std::vector<double> &phase_scale() const { return phase_scale_; }
@@ -67,6 +85,13 @@ public:
   /// Continuity across interfaces. Its multipliers are points without mass; what is said by control point here is 0
   /// for them.
   const InterfaceTerms<Model> &interfaces() const { return interfaces_; }
+
+  /// Weak conditions on edges, at the time of the loads that go with a call.
+  const WeakEdgeTerms<Model> &weak_edges() const { return weak_edges_; }
+
+  /// Forces that penalties on interfaces and edges make of a rounding error of the coordinates, per length of that
+  /// error [force/length]. Of this rank.
+  double sensitivity() const { return std::max(interfaces_.sensitivity(), weak_edges_.sensitivity()); }
 
   /// Matrix with the graph of the space, zero.
   Matrix make_matrix() const { return Matrix(distribution_, space_->distribution().graph, n_fields); }
@@ -98,8 +123,8 @@ public:
   /// External force of a deformed surface on the owned control points, block n_fields.
   void external_force(const BalanceLevel &level, const LoadValues<Model> &loads, Vector &force) const;
 
-  /// Energies of a state, summed over ranks. Collective.
-  Energies energies(const Vector &position, const Vector &velocity, const Vector &phase) const;
+  /// Energies of a state at a time, summed over ranks. Collective.
+  Energies energies(const Vector &position, const Vector &velocity, const Vector &phase, double time = 0.) const;
 
   /// Work that the history withholds in a step from phase @p previous to the level's, summed over ranks (theory D).
   /// @p history is that of the end of the step, committed(level, ...). Collective.
@@ -118,11 +143,10 @@ public:
   /// Elements with suspect quadrature points, theory C.2 1. Local.
   SuspectElements suspects(const BalanceLevel &level, const QuadratureField &history) const;
 
-  /// int_e Psi dA / int_e dA with Psi = g Psi+ + Psi- (elastic) and Psi_frac (fracture) of every owned active element.
-  struct ElementDensities
-  {
-    double elastic, fracture;
-  };
+  /// Number of owned active elements that turn inside out from position @p before to @p after (keeps_orientation).
+  int n_turned(const Vector &before, const Vector &after) const;
+
+  /// Of every owned active element.
   std::vector<ElementDensities> densities(const Vector &position, const Vector &phase) const;
 
   /// Position X of quadrature point @p q of active element @p e.
@@ -151,9 +175,10 @@ private:
   std::vector<std::pair<int, int>>    tied_unknowns_;    ///< owned local control point, field
   ScatterMap                          scatter_;
   std::vector<RowRange>               ranges_;
-  double                              shortest_edge_;
+  double                              shortest_edge_, largest_stiffness_;
   std::vector<double>                 phase_scale_, point_area_;
   InterfaceTerms<Model>               interfaces_;
+  WeakEdgeTerms<Model>                weak_edges_;
 };
 
 } // namespace sherd

@@ -51,7 +51,8 @@ inline void add_block_row(const double *from, int width, double *row)
 
 template <class Model>
 Assembler<Model>::Assembler(const Model &model, const ShellSpace<degree, spacedim> &space,
-                            std::shared_ptr<const Distribution> distribution, const std::vector<Tie> &ties)
+                            std::shared_ptr<const Distribution> distribution, const std::vector<Tie> &ties,
+                            const std::vector<Supports::WeakEdge> &weak_edges)
     : model_(&model),
       space_(&space),
       distribution_(std::move(distribution)),
@@ -61,16 +62,18 @@ Assembler<Model>::Assembler(const Model &model, const ShellSpace<degree, spacedi
       scatter_(space.distribution()),
       ranges_(row_ranges(space.distribution(), omp_get_max_threads())),
       shortest_edge_(std::numeric_limits<double>::infinity()),
+      largest_stiffness_(0.),
       phase_scale_(distribution_->n_owned(), 0.),
       point_area_(distribution_->n_owned(), 0.),
-      interfaces_(model, space, ties)
+      interfaces_(model, space, ties),
+      weak_edges_(model, space, ties, weak_edges)
 {
   const auto &d = space.distribution();
   collectively(distribution_->comm(), [&] {
     std::exception_ptr error;
 #pragma omp parallel
     {
-      // A toughness given as a formula is not for several threads; copies of it are independent.
+      // A field given as a formula is not for several threads; copies of it are independent.
       const Model own = model;
 #pragma omp for schedule(static)
       for (std::size_t e = 0; e < elements_.size(); ++e)
@@ -102,6 +105,8 @@ Assembler<Model>::Assembler(const Model &model, const ShellSpace<degree, spacedi
         for (int c = 0; c < n_fields; ++c)
           tied_extractions_[tied][c] = ties_.transfer(tied, c) * data.geometry.extraction;
       shortest_edge_ = std::min(shortest_edge_, sherd::shortest_edge(data.geometry));
+      largest_stiffness_ =
+          std::max(largest_stiffness_, *std::max_element(data.stiffness.begin(), data.stiffness.end()));
       std::optional<ShapeValues<degree>> storage;
       const auto                        &s      = data.geometry.shapes(storage);
       const auto                         points = space.points_of(static_cast<int>(e));
@@ -119,6 +124,7 @@ Assembler<Model>::Assembler(const Model &model, const ShellSpace<degree, spacedi
         }
     }
   MPI_Allreduce(MPI_IN_PLACE, &shortest_edge_, 1, MPI_DOUBLE, MPI_MIN, distribution_->comm());
+  MPI_Allreduce(MPI_IN_PLACE, &largest_stiffness_, 1, MPI_DOUBLE, MPI_MAX, distribution_->comm());
 }
 
 template <class Model>
@@ -246,6 +252,7 @@ void Assembler<Model>::force(const BalanceLevel &level, const QuadratureField &h
         scatter_force(e, vector, ranges_[r], force);
       }
   interfaces_.add_force(level.position, level.phase, force);
+  weak_edges_.add_force(level.position, level.phase, loads.time, force);
   external_force(level, loads, external);
 }
 
@@ -285,6 +292,7 @@ void Assembler<Model>::linearise(const BalanceLevel &level, const QuadratureFiel
         scatter_matrix(e, tangent, ranges_[r], matrix);
       }
   interfaces_.linearise(level.position, level.phase, force, matrix);
+  weak_edges_.linearise(level.position, level.phase, loads.time, force, matrix);
   for (const auto &[a, field] : tied_unknowns_)
     matrix.diagonal(a, field) = 1.;
   if (loads.dead)
@@ -320,7 +328,8 @@ void Assembler<Model>::mass_matrix(Matrix &matrix) const
 }
 
 template <class Model>
-Energies Assembler<Model>::energies(const Vector &position, const Vector &velocity, const Vector &phase) const
+Energies Assembler<Model>::energies(const Vector &position, const Vector &velocity, const Vector &phase,
+                                    double time) const
 {
   const auto           &owns = space_->distribution().owns;
   std::vector<Energies> part(elements_.size());
@@ -331,7 +340,7 @@ Energies Assembler<Model>::energies(const Vector &position, const Vector &veloci
   Energies sum;
   for (const auto &energies : part)
     sum += energies;
-  sum.constraint  = interfaces_.energy(position, phase);
+  sum.constraint  = interfaces_.energy(position, phase) + weak_edges_.energy(position, phase, time);
   double values[] = {sum.active,     sum.passive, sum.kinetic,       sum.fracture,
                      sum.constraint, sum.bending, sum.diffuse_length};
   MPI_Allreduce(MPI_IN_PLACE, values, 7, MPI_DOUBLE, MPI_SUM, distribution_->comm());
@@ -427,8 +436,22 @@ SuspectElements Assembler<Model>::suspects(const BalanceLevel &level, const Quad
 }
 
 template <class Model>
-std::vector<typename Assembler<Model>::ElementDensities> Assembler<Model>::densities(const Vector &position,
-                                                                                     const Vector &phase) const
+int Assembler<Model>::n_turned(const Vector &before, const Vector &after) const
+{
+  const Vector no_phase(distribution_, 1);
+  int          n = 0;
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    if (space_->distribution().owns[e])
+      {
+        // Two positions side by side: the earlier one takes the place of the acceleration.
+        const auto f = fields(static_cast<int>(e), after, before, no_phase);
+        n += !keeps_orientation<Model>(elements_[e], f.acceleration, f.position);
+      }
+  return n;
+}
+
+template <class Model>
+std::vector<ElementDensities> Assembler<Model>::densities(const Vector &position, const Vector &phase) const
 {
   std::vector<ElementDensities> result;
   for (std::size_t e = 0; e < elements_.size(); ++e)

@@ -11,8 +11,9 @@ namespace sherd
 ///
 /// A stage: predictor (constant velocity, linearly extrapolated phase), Newton on (dy, dphi) with dy = alpha_f dx
 /// (theory F.2), branch check; if the check fails a branch switch at the same step size (theory C.2). A state that
-/// fails both, or that does not converge, or that is not finite is never returned. NewtonSettings choose the tangent
-/// and a line search; n_NR counts tangents as NewtonIteration does.
+/// fails both, or that does not converge, or that is not finite, or in which an element has turned inside out (theory
+/// F.4) is never returned. NewtonSettings choose the tangent and a line search; n_NR counts tangents as NewtonIteration
+/// does.
 ///
 /// The arguments of the constructor have to outlive the solver.
 template <class Model, ImplicitIntegrator Integrator>

@@ -168,7 +168,12 @@ bool NewtonIteration<Model>::iterate(Equations &equations, System &system, Resul
                          std::to_string(norms.displacement) + " and " + std::to_string(norms.phase) +
                          " times the tolerances of displacement and phase)";
       if (!result.failure.empty())
-        return false;
+        {
+          // What iterates that go astray ask of the linear solver is no measure of the next attempt.
+          kept_.reset();
+          linear_solver_.forget();
+          return false;
+        }
       by_kept_tangent = !system.has_tangent;
       n_tangents += system.has_tangent;
       result.newton += system.has_tangent;

@@ -3,7 +3,6 @@
 #include <limits>
 #include <string>
 
-#include <sherd/material/wave_speeds.h>
 #include <sherd/solve/newton.h>
 
 namespace sherd
@@ -63,7 +62,7 @@ public:
   /// Energies of @p state. Collective.
   Energies energies(const StateType &state) const
   {
-    return assembler().energies(state.position, state.velocity, state.phase);
+    return assembler().energies(state.position, state.velocity, state.phase, state.time);
   }
 
   /// Sum of the internal and inertial forces on a named edge, at the end of the last attempted step: what its supports
@@ -74,11 +73,8 @@ public:
     return force ? edge_force(space(), *force, edge) : Point<spacedim>(Point<spacedim>::Zero());
   }
 
-  /// c_R of the undamaged surface (theory F.3).
-  double rayleigh_speed() const
-  {
-    return wave_speeds(model().split.bulk(), model().split.shear(), model().mass).rayleigh;
-  }
+  /// c_R of the undamaged surface where it is stiffest (theory F.3). After rebuild().
+  double rayleigh_speed() const { return assembler().fastest_waves().rayleigh; }
 
   /// Largest stable step [time]: an implicit scheme has none.
   double largest_step() const { return std::numeric_limits<double>::infinity(); }

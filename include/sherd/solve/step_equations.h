@@ -62,6 +62,9 @@ public:
   /// the stage that needs most.
   Result take_stages(const StateType &state, double dt, const Stages &stages, const StageSolver &solve);
 
+  /// Whether no element turns inside out from position @p before to @p after (theory F.4); else the result says so.
+  bool keeps_orientation(const Vector &before, const Vector &after, Result &result) const;
+
   /// System of the phase alone, at rest at @p position.
   System phase_system(const Vector &position, Vector phase, const QuadratureField &history) const;
 
@@ -76,6 +79,10 @@ public:
 
   /// Work of forces over a way; multipliers do none.
   StepWork work(const BalancedForces &forces, const Vector &displacement, const Vector &phase_change) const;
+
+  /// Work of rotations that are prescribed in weak form, between two times at a position: they change the energy of the
+  /// penalty without any motion, from outside and within alike.
+  StepWork work_of_rotations(const Vector &position, double start, double end) const;
 
   /// Solves M a = f_ext - f_int at the time of @p state with the consistent mass. @p matrix is overwritten.
   void set_initial_acceleration(StateType &state, Matrix &matrix) const;
