@@ -14,6 +14,11 @@ void Case::declare(ParameterSection &section)
   section.list("supports", supports, "what is held or moved; where regions meet, the last one holds");
   section.list("loads", loads, "what pulls and presses");
   section.subsection("time", time, "time integration");
+  section.choice("solver", solver,
+                 {{"monolithic", SolverChoice::monolithic},
+                  {"staggered", SolverChoice::staggered},
+                  {"explicit", SolverChoice::explicit_}},
+                 "displacement and phase together, alternately, or explicit with integrator central_difference");
   section.subsection("newton", newton, "nonlinear and linear solver");
   section.subsection("refinement", refinement, "where the mesh is refined");
   section.subsection("stop", stop, "what ends the run before its end time");
@@ -27,7 +32,14 @@ void Case::resolve()
   surface.keep_chosen();
   material.resolve(surface.dimension);
   fracture.degradation.make();
-  time.make_integrator();
+  if ((time.integrator == "central_difference") != (solver == SolverChoice::explicit_))
+    throw InvalidParameter("time.integrator = " + time.integrator + " with " +
+                           (solver == SolverChoice::explicit_ ? "solver = explicit" : "an implicit solver") +
+                           "; central_difference and solver = explicit belong together");
+  if (solver == SolverChoice::explicit_)
+    time.check_unused();
+  else
+    time.make_integrator();
   std::set<std::string> names;
   for (const auto &point : output.points)
     if (!names.insert(point.name).second || point.name.empty())

@@ -18,8 +18,8 @@ void TimeParameters::declare(ParameterSection &section)
 {
   section.choice("integrator", integrator,
                  {"generalized_alpha", "newmark", "hht", "wbz", "bathe", "implicit_midpoint", "backward_euler",
-                  "quasi_static"},
-                 "time integrator; quasi_static: no inertia");
+                  "quasi_static", "central_difference"},
+                 "time integrator; quasi_static: no inertia; central_difference: explicit");
   section.value("rho_inf", rho_inf, "-", range::closed(0., 1.),
                 "spectral radius of generalized_alpha and wbz (none: 0.5)");
   section.value("alpha", alpha, "-", range::closed(-1. / 3., 0.), "of hht (none: -0.1)");
@@ -31,34 +31,47 @@ void TimeParameters::declare(ParameterSection &section)
   section.subsection("steps", steps, "step sizes, paper Eq. (13)");
 }
 
+namespace
+{
+void check(const TimeParameters &time, const std::initializer_list<std::string> &allowed)
+{
+  internal::check_given("time: integrator = " + time.integrator,
+                        {{"rho_inf", time.rho_inf.has_value()},
+                         {"alpha", time.alpha.has_value()},
+                         {"beta", time.beta.has_value()},
+                         {"gamma", time.gamma.has_value()}},
+                        {}, allowed);
+}
+} // namespace
+
+void TimeParameters::check_unused() const
+{
+  check(*this, {});
+}
+
 AnyIntegrator TimeParameters::make_integrator() const
 {
-  const auto check = [&](const std::initializer_list<std::string> &allowed) {
-    internal::check_given("time: integrator = " + integrator,
-                          {{"rho_inf", rho_inf.has_value()},
-                           {"alpha", alpha.has_value()},
-                           {"beta", beta.has_value()},
-                           {"gamma", gamma.has_value()}},
-                          {}, allowed);
-  };
-  if (integrator == "generalized_alpha" || integrator == "wbz")
+  if (integrator == "generalized_alpha")
     {
-      check({"rho_inf"});
-      if (integrator == "wbz")
-        return WBZ(rho_inf.value_or(.5));
+      check(*this, {"rho_inf"});
       return GeneralizedAlpha(rho_inf.value_or(.5));
+    }
+  if (integrator == "wbz")
+    {
+      check(*this, {"rho_inf"});
+      return WBZ(rho_inf.value_or(.5));
     }
   if (integrator == "hht")
     {
-      check({"alpha"});
+      check(*this, {"alpha"});
       return HHT(alpha.value_or(-.1));
     }
   if (integrator == "newmark")
     {
-      check({"beta", "gamma"});
+      check(*this, {"beta", "gamma"});
       return Newmark(beta.value_or(.25), gamma.value_or(.5));
     }
-  check({});
+  check_unused();
   if (integrator == "bathe")
     return Bathe();
   if (integrator == "implicit_midpoint")

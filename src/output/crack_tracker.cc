@@ -1,5 +1,8 @@
 #include <sherd/output/crack_tracker.h>
 
+#include <sherd/base/instantiate.h>
+#include <sherd/output/crack_tracker.templates.h>
+
 namespace sherd
 {
 
@@ -59,5 +62,11 @@ void CrackTracker::join(PatchedCracks cracks, const std::vector<char> &self_join
         }
   join_cracks(cracks_, cracks.patch_of_arm, ends, self_joined, {4. * l0, 2. * l0}, pruning);
 }
+
+#define SHERD_INSTANTIATE(degree, spacedim)                                                                            \
+  template CrackTracker::CrackTracker(const Surface<degree, spacedim> &, const CrackOptions &);                        \
+  template void CrackTracker::update(const Surface<degree, spacedim> &, const Eigen::VectorXd &, double);
+SHERD_FOR_EACH_SURFACE(SHERD_INSTANTIATE)
+#undef SHERD_INSTANTIATE
 
 } // namespace sherd

@@ -146,11 +146,7 @@ public:
   /// Number of owned active elements that turn inside out from position @p before to @p after (keeps_orientation).
   int n_turned(const Vector &before, const Vector &after) const;
 
-  /// int_e Psi dA / int_e dA with Psi = g Psi+ + Psi- (elastic) and Psi_frac (fracture) of every owned active element.
-  struct ElementDensities
-  {
-    double elastic, fracture;
-  };
+  /// Of every owned active element.
   std::vector<ElementDensities> densities(const Vector &position, const Vector &phase) const;
 
   /// Position X of quadrature point @p q of active element @p e.

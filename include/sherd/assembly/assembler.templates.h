@@ -451,8 +451,7 @@ int Assembler<Model>::n_turned(const Vector &before, const Vector &after) const
 }
 
 template <class Model>
-std::vector<typename Assembler<Model>::ElementDensities> Assembler<Model>::densities(const Vector &position,
-                                                                                     const Vector &phase) const
+std::vector<ElementDensities> Assembler<Model>::densities(const Vector &position, const Vector &phase) const
 {
   std::vector<ElementDensities> result;
   for (std::size_t e = 0; e < elements_.size(); ++e)

@@ -16,6 +16,14 @@
 namespace sherd
 {
 
+/// How the equations of a step are solved.
+enum class SolverChoice
+{
+  monolithic,
+  staggered,
+  explicit_
+};
+
 /// Everything a case file says.
 struct Case
 {
@@ -27,6 +35,7 @@ struct Case
   std::vector<SupportParameters> supports;
   std::vector<LoadParameters>    loads;
   TimeParameters                 time;
+  SolverChoice                   solver = SolverChoice::monolithic;
   NewtonSettings                 newton;
   RefinementSettings             refinement;
   StopParameters                 stop;
@@ -42,8 +51,5 @@ struct Case
 
 /// Sections that a restart may repeat but not change: body, mesh and model.
 const std::vector<std::string> &model_sections();
-
-/// Text of --list: every policy and shape with a line on what it is.
-std::string list_of_choices();
 
 } // namespace sherd

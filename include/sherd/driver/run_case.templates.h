@@ -3,7 +3,8 @@
 #include <iostream>
 
 #include <sherd/adapt/adaptivity.h>
-#include <sherd/driver/case_model.h>
+#include <sherd/base/parameters.h>
+#include <sherd/driver/case_kernel.h>
 #include <sherd/driver/case_solver.h>
 #include <sherd/driver/make_surface.h>
 #include <sherd/driver/run_case.h>
@@ -62,15 +63,7 @@ public:
         surface_(blank_),
         model_(make_model<degree, spacedim>(prm)),
         cracks_(make_cracks(prm, blank_)),
-        integrator_(prm.time.make_integrator()),
-        space_(env, surface_, prm.surface.continuity.make()),
-        recording_{.crack    = {.length_scale   = prm.fracture.length_scale,
-                                .rayleigh_speed = 0., // see below
-                                .target_size    = prm.refinement.target},
-                   .end_time = prm.time.end,
-                   .frames   = prm.output.frames,
-                   .points   = internal::make_probes<spacedim>(prm.output),
-                   .edges    = prm.output.reactions}
+        space_(env, surface_, prm.surface.continuity.make())
   {
     for (std::size_t i = 0; i < prm.supports.size(); ++i)
       {
@@ -87,8 +80,13 @@ public:
       }
     internal::check_edges(blank_, "output.reactions", prm.output.reactions);
     internal::check_edges(blank_, "stop.crack_at", prm.stop.crack_at);
-    recording_.crack.rayleigh_speed =
-        wave_speeds(model_.split.bulk(), model_.split.shear(), model_.mass).rayleigh;
+    recording_.crack    = {.length_scale   = prm.fracture.length_scale,
+                           .rayleigh_speed = wave_speeds(model_.split.bulk(), model_.split.shear(), model_.mass).rayleigh,
+                           .target_size    = prm.refinement.target};
+    recording_.end_time = prm.time.end;
+    recording_.frames   = prm.output.frames;
+    recording_.points   = internal::make_probes<spacedim>(prm.output);
+    recording_.edges    = prm.output.reactions;
   }
 
   /// Builds what a run builds first on the mesh before refinement: formulas, edges and points are evaluated.
@@ -136,7 +134,7 @@ public:
                     controller);
     while (state.time < prm_.time.end)
       {
-        run.step([&] { return adaptivity.advance(solver, surface_, space_, state, controller, end_of_step(state)); });
+        run.step([&] { return adaptivity.advance(solver, surface_, space_, state, controller, prm_.time.end); });
         if (!prm_.stop.any())
           continue;
         if (const auto reason = reason_to_stop(prm_.stop, space_, state, run.memory()))
@@ -153,14 +151,24 @@ private:
 
   Solver make_solver()
   {
-    using Monolithic = MonolithicSolver<Model, AnyIntegrator>;
-    return Solver(std::make_unique<Monolithic>(model_, space_, supports_, loads_, integrator_, prm_.newton));
-  }
-
-  /// What the next step must not pass.
-  double end_of_step(const State<degree, spacedim> &state) const
-  {
-    return prm_.time.largest_step ? std::min(prm_.time.end, state.time + *prm_.time.largest_step) : prm_.time.end;
+    const StepBounds bounds{.by_waves = has_inertia(),
+                            .largest  = prm_.time.largest_step.value_or(std::numeric_limits<double>::infinity())};
+    switch (prm_.solver)
+      {
+      case SolverChoice::explicit_:
+        return {std::make_unique<ExplicitSolver<Model>>(model_, space_, supports_, loads_, CentralDifference(),
+                                                        prm_.newton),
+                bounds};
+      case SolverChoice::staggered:
+        return {std::make_unique<StaggeredSolver<Model, AnyIntegrator>>(model_, space_, supports_, loads_,
+                                                                        prm_.time.make_integrator(), prm_.newton),
+                bounds};
+      case SolverChoice::monolithic:
+        break;
+      }
+    return {std::make_unique<MonolithicSolver<Model, AnyIntegrator>>(model_, space_, supports_, loads_,
+                                                                     prm_.time.make_integrator(), prm_.newton),
+            bounds};
   }
 
   Environment                  env_;
@@ -168,7 +176,6 @@ private:
   Surface<degree, spacedim>    blank_, surface_;
   Model                        model_;
   PreCrack<spacedim>           cracks_;
-  AnyIntegrator                integrator_;
   Supports                     supports_;
   Loads<spacedim>              loads_;
   ShellSpace<degree, spacedim> space_;

@@ -22,8 +22,12 @@ struct TimeParameters
 
   void declare(ParameterSection &section);
 
+  /// @pre not central_difference
   /// @throws InvalidParameter   from the integrator; parameters that it does not have
   AnyIntegrator make_integrator() const;
+
+  /// @throws InvalidParameter   a parameter of an integrator, where it has none
+  void check_unused() const;
 };
 
 /// What ends a run before its end time.

@@ -50,6 +50,12 @@ inline double degraded_energy(const SplitResponse<spacedim> &response, double g)
 
 } // namespace internal
 
+/// int_e Psi dA / int_e dA of an element with Psi = g Psi+ + Psi- (elastic) and Psi_frac (fracture) [energy/area].
+struct ElementDensities
+{
+  double elastic, fracture;
+};
+
 /// Energies of one element. Membrane energy is that of the point with k_ab = 0, bending energy the rest: exact where
 /// the law separates them; where layers crack one by one, the way in which the degraded energy is shared. The fields
 /// hold the end of the step, with the velocity in place of the acceleration.
