@@ -1,5 +1,8 @@
 #include <sherd/output/crack_tracker.h>
 
+#include <sherd/base/instantiate.h>
+#include <sherd/output/crack_tracker.templates.h>
+
 namespace sherd
 {
 
@@ -30,16 +33,19 @@ std::vector<int> CrackTracker::ends_inside() const
   return result;
 }
 
-void CrackTracker::join(const std::vector<int> &patch_of_arm, const std::vector<char> &self_joined,
-                        const std::vector<Eigen::Vector3d> &broken)
+void CrackTracker::join(PatchedCracks cracks, const std::vector<char> &self_joined, const std::vector<BrokenRun> &runs,
+                        const Pruning &pruning)
 {
+  const double l0 = options_.length_scale;
+  merge_bands(cracks, runs, l0, pruning);
+  cracks_            = std::move(cracks.graph);
+  const auto &broken = pruning.cut_points;
   if (broken.empty())
     return;
-  const double        l0        = options_.length_scale;
-  const auto          crossings = connected_parts(broken, .5 * l0);
+  const auto          crossings = connected_parts({broken.begin(), broken.end()}, .5 * l0);
   std::vector<CutEnd> ends;
-  for (std::size_t a = 0; a < cracks_.arms.size(); ++a)
-    for (const int node : cracks_.arms[a].nodes)
+  for (const auto &arm : cracks_.arms)
+    for (const int node : arm.nodes)
       if (node >= 0 && cracks_.nodes[node].degree == 1)
         {
           const auto &X        = cracks_.nodes[node].point.X;
@@ -52,9 +58,15 @@ void CrackTracker::join(const std::vector<int> &patch_of_arm, const std::vector<
                 crossing = crossings[k];
               }
           if (crossing >= 0)
-            ends.push_back({node, patch_of_arm[a], crossing});
+            ends.push_back({node, cracks.patch_of_node[node], crossing});
         }
-  join_cracks(cracks_, patch_of_arm, ends, self_joined, {4. * l0, 2. * l0});
+  join_cracks(cracks_, cracks.patch_of_arm, ends, self_joined, {4. * l0, 2. * l0}, pruning);
 }
+
+#define SHERD_INSTANTIATE(degree, spacedim)                                                                            \
+  template CrackTracker::CrackTracker(const Surface<degree, spacedim> &, const CrackOptions &);                        \
+  template void CrackTracker::update(const Surface<degree, spacedim> &, const Eigen::VectorXd &, double);
+SHERD_FOR_EACH_SURFACE(SHERD_INSTANTIATE)
+#undef SHERD_INSTANTIATE
 
 } // namespace sherd

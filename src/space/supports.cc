@@ -50,6 +50,29 @@ void Supports::phase_symmetry(const std::string &edge)
   symmetries_.push_back({edge, {}});
 }
 
+void Supports::clamp_weakly(const std::string &edge, const continuity::Penalty &factors)
+{
+  fix(edge);
+  rotate(edge, zero, factors);
+}
+
+void Supports::rotate(const std::string &edge, std::function<double(double)> angle, const continuity::Penalty &factors)
+{
+  weak_edges_.push_back({edge, WeakEdge::HeldNormal{std::move(angle)}, factors.deformation});
+}
+
+void Supports::symmetry_weakly(const std::string &edge, Component normal, const continuity::Penalty &factors)
+{
+  fix(edge, normal);
+  weak_edges_.push_back({edge, WeakEdge::SymmetricNormal{normal}, factors.deformation});
+  phase_symmetry_weakly(edge, factors);
+}
+
+void Supports::phase_symmetry_weakly(const std::string &edge, const continuity::Penalty &factors)
+{
+  weak_edges_.push_back({edge, WeakEdge::LevelPhase{}, factors.phase});
+}
+
 int component_index(Component component, int spacedim, const std::string &where)
 {
   const int index = static_cast<int>(component);

@@ -15,10 +15,10 @@ namespace
 /// A free plate of 8 x 4 that swings in its plane, without cracks: l0 = Gc = rho = 1, E = 10^4.
 struct SwingingPlate
 {
-  using Model = models::UnsplitPlate;
+  using Model = models::Plate;
 
   Environment       env{MPI_COMM_WORLD};
-  Model             model{split::None<material::NeoHooke>(material::NeoHooke(material::surface_moduli(1e4, .2))),
+  Model             model{split::SurfaceStretch<material::NeoHooke>(material::NeoHooke(material::surface_moduli(1e4, .2))),
               degradation::Cubic(),
               {},
               1e6,

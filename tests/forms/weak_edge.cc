@@ -110,7 +110,8 @@ TEST_CASE("weak edges: the penalty of the phase is that of its slope across the 
       double                length  = 0.;
       for (const auto &q : piece.quadrature)
         length += q.dS;
-      CHECK(phi.dot(phase_symmetry_matrix(piece, 2.) * phi) == Approx(2. * slope * slope * length).epsilon(1e-12));
+      CHECK(phi.dot(phase_symmetry_matrix(piece, {2., 2., 2.}) * phi) ==
+            Approx(2. * slope * slope * length).epsilon(1e-12));
     }
 }
 

@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 
 #include <geometry/joined_surfaces.h>
+#include <sherd/geometry/shapes/box.h>
+#include <sherd/geometry/shapes/sphere.h>
 #include <sherd/spline/independence.h>
 
 using namespace sherd;
@@ -199,6 +201,19 @@ TEST_CASE("Refinement crosses interfaces, and changes neither surface nor fields
     const auto interfaces = find_interfaces(patches);
     CHECK(interfaces.size() == 12);
     check_random_refinement(Surface<2, 3>(patches, {}, interfaces), 4, seed);
+  }
+  SECTION("the sphere, with its corners of three patches")
+  {
+    check_random_refinement(shapes::sphere<2>(1., 3), 3, seed);
+    check_random_refinement(shapes::sphere<3>(1., 2), 2, seed);
+  }
+  SECTION("a box, with folds and corners of three patches")
+  {
+    check_random_refinement(shapes::box<2>({1., 2., 3.}, {2, 3, 4}), 3, seed);
+  }
+  SECTION("an open box, with corners of two patches on its rim")
+  {
+    check_random_refinement(shapes::box<2>({1., 2., 3.}, {2, 3, 4}, shapes::Lid::open), 3, seed);
   }
 }
 

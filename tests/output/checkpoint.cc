@@ -174,17 +174,13 @@ void replace(const fs::path &file, const std::string &bytes)
   on_root(MPI_COMM_WORLD, [&] { std::ofstream(file, std::ios::binary) << bytes; });
 }
 
-/// What CheckpointWriter needs of a solver and of a recorder.
+/// What CheckpointWriter needs of a solver.
 struct FakeSolver
 {
   PhaseTimers  clock;
   int          n_rebuilt = 0;
   PhaseTimers &timers() { return clock; }
   void         rebuild(const State<2, 2> &) { ++n_rebuilt; }
-};
-struct FakeRecorder
-{
-  RecorderMemory memory(FakeSolver &) const { return some_memory(); }
 };
 
 struct Writing
@@ -207,7 +203,7 @@ struct Writing
   void write(CheckpointWriter &writer, int step)
   {
     state.step = step;
-    writer.write(solver, space, state, controller, FakeRecorder{});
+    writer.write(solver, space, state, controller, some_memory());
   }
 
   Surface<2, 2>    plate = refined_plate();

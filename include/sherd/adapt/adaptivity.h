@@ -52,7 +52,8 @@ private:
               const Triggers<spacedim> &triggers);
 
   RefinementSettings      settings_;
-  std::vector<SpanTarget> targets_; ///< by patch
+  std::vector<SpanTarget> targets_;            ///< by patch
+  bool                    is_new_mesh_ = true; ///< since the last accepted step
 };
 
 } // namespace sherd

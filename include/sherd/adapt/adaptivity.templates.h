@@ -22,6 +22,7 @@ template <class Solver>
 void Adaptivity<Model>::prepare(Solver &solver, SurfaceType &surface, SpaceType &space, StateType &state,
                                 const PreCrack<spacedim> &pre_crack)
 {
+  is_new_mesh_       = true;
   const auto &model  = solver.model();
   auto       &timers = solver.timers();
   {
@@ -80,6 +81,7 @@ template <class Solver>
 void Adaptivity<Model>::refine(Solver &solver, SurfaceType &surface, SpaceType &space, StateType &state,
                                const Triggers<spacedim> &triggers)
 {
+  is_new_mesh_ = true;
   auto &timers = solver.timers();
   {
     const auto timing = timers.measure("transfer");
@@ -166,8 +168,10 @@ StepSummary Adaptivity<Model>::advance(Solver &solver, SurfaceType &surface, Spa
       summary.largest_phase = result.largest_phase;
       {
         const auto timing = solver.timers().measure("energies");
-        summary.before    = solver.energies(state);
-        summary.energies  = solver.energies(*result.state);
+        if (is_new_mesh_)
+          summary.before = solver.energies(state);
+        summary.energies = solver.energies(*result.state);
+        is_new_mesh_     = false;
       }
       state = std::move(*result.state);
       // The sum of time and step may miss the stop by rounding.

@@ -8,6 +8,7 @@
 #include <sherd/assembly/load_values.h>
 #include <sherd/assembly/scatter.h>
 #include <sherd/assembly/tied_elements.h>
+#include <sherd/assembly/weak_edge_terms.h>
 #include <sherd/forms/element_energies.h>
 #include <sherd/forms/orientation.h>
 #include <sherd/forms/shell_element.h>
@@ -33,7 +34,8 @@ struct SuspectElements
   double           largest_phase = 0.; ///< on this rank
 };
 
-/// The element loop: brings the weak forms of a model to distributed vectors and matrices, those on interfaces too.
+/// The element loop: brings the weak forms of a model to distributed vectors and matrices, those on interfaces and
+/// edges too.
 ///
 /// Caches the geometry, the toughness and the stiffness of the active elements, so it belongs to one mesh and one
 /// distribution: make a new one after each refinement. Threads: OMP_NUM_THREADS. The results do not depend on their
@@ -49,10 +51,13 @@ public:
 
   /// Model and space have to outlive the assembler. What acts on tied control values acts on their masters; their own
   /// rows and columns are empty but for a 1 on the diagonal. Collective.
-  /// @param ties   of the surface of @p space
-  /// @throws InvalidParameter   a degenerate element, a toughness or stiffness that is not positive: on all ranks
+  /// @param ties         of the surface of @p space
+  /// @param weak_edges   Supports::weak_edges()
+  /// @throws InvalidParameter   a degenerate element, a toughness or stiffness that is not positive; from InterfaceTerms
+  ///                            and WeakEdgeTerms: on all ranks
   Assembler(const Model &model, const ShellSpace<degree, spacedim> &space,
-            std::shared_ptr<const Distribution> distribution, const std::vector<Tie> &ties = {});
+            std::shared_ptr<const Distribution> distribution, const std::vector<Tie> &ties = {},
+            const std::vector<Supports::WeakEdge> &weak_edges = {});
 
   const Model                               &model() const { return *model_; }
   const ShellSpace<degree, spacedim>        &space() const { return *space_; }
@@ -80,6 +85,13 @@ public:
   /// Continuity across interfaces. Its multipliers are points without mass; what is said by control point here is 0
   /// for them.
   const InterfaceTerms<Model> &interfaces() const { return interfaces_; }
+
+  /// Weak conditions on edges, at the time of the loads that go with a call.
+  const WeakEdgeTerms<Model> &weak_edges() const { return weak_edges_; }
+
+  /// Forces that penalties on interfaces and edges make of a rounding error of the coordinates, per length of that
+  /// error [force/length]. Of this rank.
+  double sensitivity() const { return std::max(interfaces_.sensitivity(), weak_edges_.sensitivity()); }
 
   /// Matrix with the graph of the space, zero.
   Matrix make_matrix() const { return Matrix(distribution_, space_->distribution().graph, n_fields); }
@@ -111,8 +123,8 @@ public:
   /// External force of a deformed surface on the owned control points, block n_fields.
   void external_force(const BalanceLevel &level, const LoadValues<Model> &loads, Vector &force) const;
 
-  /// Energies of a state, summed over ranks. Collective.
-  Energies energies(const Vector &position, const Vector &velocity, const Vector &phase) const;
+  /// Energies of a state at a time, summed over ranks. Collective.
+  Energies energies(const Vector &position, const Vector &velocity, const Vector &phase, double time = 0.) const;
 
   /// Work that the history withholds in a step from phase @p previous to the level's, summed over ranks (theory D).
   /// @p history is that of the end of the step, committed(level, ...). Collective.
@@ -134,11 +146,7 @@ public:
   /// Number of owned active elements that turn inside out from position @p before to @p after (keeps_orientation).
   int n_turned(const Vector &before, const Vector &after) const;
 
-  /// int_e Psi dA / int_e dA with Psi = g Psi+ + Psi- (elastic) and Psi_frac (fracture) of every owned active element.
-  struct ElementDensities
-  {
-    double elastic, fracture;
-  };
+  /// Of every owned active element.
   std::vector<ElementDensities> densities(const Vector &position, const Vector &phase) const;
 
   /// Position X of quadrature point @p q of active element @p e.
@@ -170,6 +178,7 @@ private:
   double                              shortest_edge_, largest_stiffness_;
   std::vector<double>                 phase_scale_, point_area_;
   InterfaceTerms<Model>               interfaces_;
+  WeakEdgeTerms<Model>                weak_edges_;
 };
 
 } // namespace sherd

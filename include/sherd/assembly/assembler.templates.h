@@ -51,7 +51,8 @@ inline void add_block_row(const double *from, int width, double *row)
 
 template <class Model>
 Assembler<Model>::Assembler(const Model &model, const ShellSpace<degree, spacedim> &space,
-                            std::shared_ptr<const Distribution> distribution, const std::vector<Tie> &ties)
+                            std::shared_ptr<const Distribution> distribution, const std::vector<Tie> &ties,
+                            const std::vector<Supports::WeakEdge> &weak_edges)
     : model_(&model),
       space_(&space),
       distribution_(std::move(distribution)),
@@ -64,7 +65,8 @@ Assembler<Model>::Assembler(const Model &model, const ShellSpace<degree, spacedi
       largest_stiffness_(0.),
       phase_scale_(distribution_->n_owned(), 0.),
       point_area_(distribution_->n_owned(), 0.),
-      interfaces_(model, space, ties)
+      interfaces_(model, space, ties),
+      weak_edges_(model, space, ties, weak_edges)
 {
   const auto &d = space.distribution();
   collectively(distribution_->comm(), [&] {
@@ -250,6 +252,7 @@ void Assembler<Model>::force(const BalanceLevel &level, const QuadratureField &h
         scatter_force(e, vector, ranges_[r], force);
       }
   interfaces_.add_force(level.position, level.phase, force);
+  weak_edges_.add_force(level.position, level.phase, loads.time, force);
   external_force(level, loads, external);
 }
 
@@ -289,6 +292,7 @@ void Assembler<Model>::linearise(const BalanceLevel &level, const QuadratureFiel
         scatter_matrix(e, tangent, ranges_[r], matrix);
       }
   interfaces_.linearise(level.position, level.phase, force, matrix);
+  weak_edges_.linearise(level.position, level.phase, loads.time, force, matrix);
   for (const auto &[a, field] : tied_unknowns_)
     matrix.diagonal(a, field) = 1.;
   if (loads.dead)
@@ -324,7 +328,8 @@ void Assembler<Model>::mass_matrix(Matrix &matrix) const
 }
 
 template <class Model>
-Energies Assembler<Model>::energies(const Vector &position, const Vector &velocity, const Vector &phase) const
+Energies Assembler<Model>::energies(const Vector &position, const Vector &velocity, const Vector &phase,
+                                    double time) const
 {
   const auto           &owns = space_->distribution().owns;
   std::vector<Energies> part(elements_.size());
@@ -335,7 +340,7 @@ Energies Assembler<Model>::energies(const Vector &position, const Vector &veloci
   Energies sum;
   for (const auto &energies : part)
     sum += energies;
-  sum.constraint  = interfaces_.energy(position, phase);
+  sum.constraint  = interfaces_.energy(position, phase) + weak_edges_.energy(position, phase, time);
   double values[] = {sum.active,     sum.passive, sum.kinetic,       sum.fracture,
                      sum.constraint, sum.bending, sum.diffuse_length};
   MPI_Allreduce(MPI_IN_PLACE, values, 7, MPI_DOUBLE, MPI_SUM, distribution_->comm());
@@ -446,8 +451,7 @@ int Assembler<Model>::n_turned(const Vector &before, const Vector &after) const
 }
 
 template <class Model>
-std::vector<typename Assembler<Model>::ElementDensities> Assembler<Model>::densities(const Vector &position,
-                                                                                     const Vector &phase) const
+std::vector<ElementDensities> Assembler<Model>::densities(const Vector &position, const Vector &phase) const
 {
   std::vector<ElementDensities> result;
   for (std::size_t e = 0; e < elements_.size(); ++e)

@@ -26,7 +26,8 @@ LoadValues<Model> Assembler<Model>::evaluate(const Loads<spacedim> &loads, doubl
   const auto       &surface = space_->surface();
   const auto       &d       = space_->distribution();
   LoadValues<Model> values;
-  std::vector<int>  active(surface.n_elements(), -1);
+  values.time = time;
+  std::vector<int> active(surface.n_elements(), -1);
   for (std::size_t e = 0; e < elements_.size(); ++e)
     active[d.elements[e]] = static_cast<int>(e);
 

@@ -34,9 +34,9 @@ public:
   /// What it remembers, for checkpoints [energy].
   struct State
   {
-    double       initial = 0.; ///< sum of the energies at the start
-    Energies     now;
-    ExternalWork work;
+    double       initial      = 0.; ///< sum of the energies at the start
+    Energies     now          = {};
+    ExternalWork work         = {};
     double       irreversible = 0., dissipation = 0., inertial_dissipation = 0., refinement = 0., largest = 0.;
   };
 
@@ -44,17 +44,20 @@ public:
   explicit EnergyBalance(const State &state) : state_(state) {}
 
   /// @param initial   energies at the start of the run
-  explicit EnergyBalance(const Energies &initial) : state_{.initial = total(initial), .now = initial}
+  explicit EnergyBalance(const Energies &initial)
   {
+    state_.initial = total(initial);
+    state_.now     = initial;
     note_largest();
   }
 
   /// Adds an accepted step.
   void add(const StepSummary &step)
   {
-    state_.refinement += total(step.before) - total(state_.now);
-    state_.dissipation += step.work.internal - (total(step.energies) - total(step.before)) - step.withheld_work;
-    state_.inertial_dissipation += step.work.inertial - (step.energies.kinetic - step.before.kinetic);
+    const Energies before = step.before.value_or(state_.now);
+    state_.refinement += total(before) - total(state_.now);
+    state_.dissipation += step.work.internal - (total(step.energies) - total(before)) - step.withheld_work;
+    state_.inertial_dissipation += step.work.inertial - (step.energies.kinetic - before.kinetic);
     state_.now = step.energies;
     state_.work += step.work.external;
     state_.irreversible += step.withheld_work;

@@ -1,14 +1,10 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <optional>
 #include <vector>
 
 #include <sherd/algebra/matrix.h>
 #include <sherd/algebra/vector.h>
-#include <sherd/assembly/tie_transfers.h>
+#include <sherd/assembly/cell_scatter.h>
 #include <sherd/forms/interface_angle.h>
 #include <sherd/forms/interface_phase.h>
 #include <sherd/space/shell_space.h>
@@ -78,21 +74,20 @@ public:
 private:
   struct Cell
   {
-    InterfaceTables<degree, spacedim>     tables;
-    std::vector<int>                      points;    ///< local, a multiplier last
-    std::vector<int>                      positions; ///< of block (A, B) in the row of A, in blocks; row-major
-    bool                                  owned;
-    std::optional<TieTransfers<n_fields>> ties;
-    double                                angle_stiffness  = 0.; ///< eps; 0: no penalty
-    double                                angle_compliance = 0.; ///< -K_qq of the angle
-    double                                phase_compliance = 0.; ///< -K_qq of the phase
-    Eigen::MatrixXd                       phase_penalty;         ///< shape=(n, n) or empty
-    Eigen::VectorXd                       phase_jump;            ///< shape=(n) or empty
+    InterfaceTables<degree, spacedim> tables;
+    CellScatter<n_fields>             scatter;
+    int                               multiplier = -1; ///< local point
+    bool                              owned;
+    double                            angle_stiffness  = 0.; ///< eps; 0: no penalty
+    double                            angle_compliance = 0.; ///< -K_qq of the angle
+    double                            phase_compliance = 0.; ///< -K_qq of the phase
+    Eigen::MatrixXd                   phase_penalty;         ///< shape=(n, n) or empty
+    Eigen::VectorXd                   phase_jump;            ///< shape=(n) or empty
 
-    int  n() const { return static_cast<int>(tables.points.size()); }
-    bool has_multiplier() const { return static_cast<int>(points.size()) > n(); }
-    bool has_angle_multiplier() const { return angle_compliance > 0.; }
-    bool has_phase_multiplier() const { return phase_compliance > 0.; }
+    Eigen::Index n() const { return static_cast<Eigen::Index>(tables.points.size()); }
+    bool         has_multiplier() const { return multiplier >= 0; }
+    bool         has_angle_multiplier() const { return angle_compliance > 0.; }
+    bool         has_phase_multiplier() const { return phase_compliance > 0.; }
   };
 
   /// Arrays of a piece on its points, index point * n_fields + field.
@@ -108,13 +103,10 @@ private:
     constraint_rows ///< those of the angle in the tangent
   };
 
-  ControlValues<spacedim> control_values(const Cell &cell, const Vector &position) const;
-  Eigen::VectorXd         phase_values(const Cell &cell, const Vector &phase) const;
-  Arrays                  arrays(const Cell &cell, const Vector &position, const Vector &phase, Part part) const;
-  void                    add_angle(const Cell &cell, const Vector &position, Part part, Arrays &arrays) const;
-  void                    add_phase(const Cell &cell, const Vector &phase, Part part, Arrays &arrays) const;
-  void                    scatter(const Cell &cell, const Eigen::VectorXd &from, Vector &force) const;
-  void                    scatter(const Cell &cell, const Eigen::MatrixXd &from, Matrix &matrix) const;
+  void   set_phase_terms(const Model &model, Cell &cell, double beta) const;
+  Arrays arrays(const Cell &cell, const Vector &position, const Vector &phase, Part part) const;
+  void   add_angle(const Cell &cell, const Vector &position, Part part, Arrays &arrays) const;
+  void   add_phase(const Cell &cell, const Vector &phase, Part part, Arrays &arrays) const;
 
   double            length_scale_;
   int               n_owned_;

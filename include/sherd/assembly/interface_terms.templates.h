@@ -1,37 +1,16 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <variant>
 
 #include <sherd/assembly/interface_terms.h>
+#include <sherd/assembly/penalty_factors.h>
 #include <sherd/base/collective.h>
-#include <sherd/base/print.h>
 
 namespace sherd
 {
-
-namespace internal
-{
-
-/// c or D that scales the penalty of the angle, theory G.3; 0 in the plane and for membranes.
-template <class Model>
-double bending_stiffness(const Model &model)
-{
-  if constexpr (Model::spacedim == 3)
-    return model.split.bending().stiffness();
-  else
-    return 0.;
-}
-
-/// beta of theory G.3.
-inline double penalty_factor(double given, double otherwise)
-{
-  if (!(given >= 0. && std::isfinite(given)))
-    throw InvalidParameter("continuity by penalty: factor " + print(given) +
-                           ", expected a positive one, or 0 for the default of " + print(otherwise));
-  return given > 0. ? given : otherwise;
-}
-
-} // namespace internal
 
 template <class Model>
 InterfaceTerms<Model>::InterfaceTerms(const Model &model, const ShellSpace<degree, spacedim> &space,
@@ -48,90 +27,54 @@ InterfaceTerms<Model>::InterfaceTerms(const Model &model, const ShellSpace<degre
   const auto *penalty = std::get_if<continuity::Penalty>(&space.continuity());
   if (std::holds_alternative<continuity::None>(space.continuity()))
     return;
+  const char  *where = "continuity by penalty";
   const double beta_angle =
-      penalty ? internal::penalty_factor(penalty->deformation, continuity::penalty_factor(degree)) : multiplier_factor;
+      penalty ? internal::penalty_factor(penalty->deformation, continuity::penalty_factor(degree), where)
+              : multiplier_factor;
   const double beta_phase =
-      penalty ? internal::penalty_factor(penalty->phase, continuity::phase_penalty_factor) : multiplier_factor;
+      penalty ? internal::penalty_factor(penalty->phase, continuity::phase_penalty_factor, where) : multiplier_factor;
   const double stiffness = internal::bending_stiffness(model);
-  const bool   has_phase = std::remove_cvref_t<decltype(model.crack_density)>::order == 4;
   const auto  &d         = space.distribution();
   const auto   by_point  = TiesByPoint(ties, space.surface().n_control_points());
   collectively(space.environment().comm(), [&] {
     for (int k = 0; k < space.n_active_interfaces(); ++k)
       {
-        auto &cell  = cells_.emplace_back();
-        cell.tables = interface_tables(interface_geometry(space.surface(), space.interface_pieces()[d.interfaces[k]]));
-        cell.owned  = d.owns_interface[k];
-        cell.ties   = by_point.template transfers<n_fields>(cell.tables.points);
-        for (const int point : cell.tables.points)
-          cell.points.push_back(d.local[point]);
-        if (!penalty)
-          cell.points.push_back(d.local[space.n_control_points() + d.interfaces[k]]);
+        auto     &cell       = cells_.emplace_back();
+        const int multiplier = penalty ? -1 : space.n_control_points() + d.interfaces[k];
+        cell.tables  = interface_tables(interface_geometry(space.surface(), space.interface_pieces()[d.interfaces[k]]));
+        cell.owned   = d.owns_interface[k];
+        cell.scatter = CellScatter<n_fields>(d, cell.tables.points, multiplier, by_point);
+        cell.multiplier = penalty ? -1 : d.local[multiplier];
 
         double factor = 0.; // of the moduli; the penalty follows the stiffer side
         for (const auto &point : cell.tables.quadrature)
           factor = std::max(factor, model.stiffness(point.position));
-        const double eps = beta_angle * factor * stiffness / cell.tables.size;
+        const double eps = internal::angle_penalty(beta_angle, factor * stiffness, cell.tables.size);
         if (stiffness > 0.)
           (penalty ? cell.angle_stiffness : cell.angle_compliance) = penalty ? eps : cell.tables.length / eps;
         if (penalty)
           sensitivity_ = std::max(sensitivity_, eps / cell.tables.size);
-        if (has_phase)
-          {
-            std::array<double, degree + 1> eps_phase;
-            for (int q = 0; q <= degree; ++q)
-              {
-                const auto &point = cell.tables.quadrature[q];
-                eps_phase[q]      = beta_phase * model.toughness(point.position) * std::pow(model.length_scale, 3) /
-                               (2. * cell.tables.size);
-                if (!penalty)
-                  cell.phase_compliance += point.dS / eps_phase[q];
-              }
-            if (penalty)
-              cell.phase_penalty = phase_penalty_matrix(cell.tables, eps_phase);
-            else
-              cell.phase_jump = phase_jump(cell.tables);
-            if (cell.ties)
-              {
-                const auto &R = (*cell.ties)[spacedim];
-                if (penalty)
-                  cell.phase_penalty = R * cell.phase_penalty * R.transpose();
-                else
-                  cell.phase_jump = R * cell.phase_jump;
-              }
-          }
-
-        const auto size = cell.points.size();
-        cell.positions.assign(size * size, -1);
-        for (std::size_t i = 0; i < size; ++i)
-          if (cell.points[i] < n_owned_)
-            {
-              const auto row = d.graph.row(cell.points[i]);
-              for (std::size_t j = 0; j < size; ++j)
-                cell.positions[i * size + j] =
-                    static_cast<int>(std::lower_bound(row.begin(), row.end(), cell.points[j]) - row.begin());
-            }
+        if (std::remove_cvref_t<decltype(model.crack_density)>::order == 4)
+          set_phase_terms(model, cell, beta_phase);
       }
   });
 }
 
 template <class Model>
-auto InterfaceTerms<Model>::control_values(const Cell &cell, const Vector &position) const -> ControlValues<spacedim>
+void InterfaceTerms<Model>::set_phase_terms(const Model &model, Cell &cell, double beta) const
 {
-  ControlValues<spacedim> values(cell.n(), spacedim);
-  for (int i = 0; i < cell.n(); ++i)
-    for (int c = 0; c < spacedim; ++c)
-      values(i, c) = position.local()[cell.points[i] * spacedim + c];
-  return values;
-}
-
-template <class Model>
-Eigen::VectorXd InterfaceTerms<Model>::phase_values(const Cell &cell, const Vector &phase) const
-{
-  Eigen::VectorXd values(cell.n());
-  for (int i = 0; i < cell.n(); ++i)
-    values[i] = phase.local()[cell.points[i]];
-  return values;
+  std::array<double, degree + 1> eps;
+  for (int q = 0; q <= degree; ++q)
+    {
+      const auto &point = cell.tables.quadrature[q];
+      eps[q] = internal::phase_penalty(beta, model.toughness(point.position), model.length_scale, cell.tables.size);
+      if (cell.has_multiplier())
+        cell.phase_compliance += point.dS / eps[q];
+    }
+  if (cell.has_multiplier())
+    cell.phase_jump = cell.scatter.to_masters(spacedim, phase_jump(cell.tables));
+  else
+    cell.phase_penalty = cell.scatter.to_masters(spacedim, spacedim, phase_penalty_matrix(cell.tables, eps));
 }
 
 template <class Model>
@@ -141,22 +84,16 @@ void InterfaceTerms<Model>::add_angle(const Cell &cell, const Vector &position, 
     {
       if (cell.angle_stiffness == 0. && !cell.has_angle_multiplier())
         return;
-      const int    n = cell.n(), multiplier = n * n_fields;
-      const auto   x    = control_values(cell, position);
-      const double q    = cell.has_multiplier() ? position.local()[cell.points[n] * spacedim] : 0.;
-      const auto   free = [&](auto &&f) -> ControlValues<3> { // R^T f
-        if (!cell.ties)
-          return f;
-        ControlValues<3> result(n, 3);
-        for (int c = 0; c < 3; ++c)
-          result.col(c) = (*cell.ties)[c] * f.col(c);
-        return result;
-      };
-      const auto rows = [&](int c) { return Eigen::seqN(c, n, Eigen::fix<n_fields>); };
+      const auto   n = cell.n(), multiplier = n * n_fields;
+      const auto   x    = cell.scatter.position(position, n);
+      const double q    = cell.has_multiplier() ? position.local()[cell.multiplier * spacedim] : 0.;
+      const auto   rows = [&](int c) { return Eigen::seqN(c, n, Eigen::fix<n_fields>); };
 
       ControlValues<3> gradient = // of the constraint, or the force of the penalty
-          free(cell.has_multiplier() ? angle_defect_gradient(cell.tables, x)
-                                     : angle_penalty_force(cell.tables, x, cell.angle_stiffness));
+          cell.has_multiplier() ? angle_defect_gradient(cell.tables, x)
+                                : angle_penalty_force(cell.tables, x, cell.angle_stiffness);
+      for (int c = 0; c < 3; ++c)
+        gradient.col(c) = cell.scatter.to_masters(c, gradient.col(c));
       if (part != Part::constraint_rows)
         {
           for (int c = 0; c < 3; ++c)
@@ -181,12 +118,8 @@ void InterfaceTerms<Model>::add_angle(const Cell &cell, const Vector &position, 
                                                       : angle_penalty_tangent(cell.tables, x, cell.angle_stiffness);
       for (int c = 0; c < 3; ++c)
         for (int d = 0; d < 3; ++d)
-          {
-            Eigen::MatrixXd block = K(Eigen::seqN(c, n, Eigen::fix<3>), Eigen::seqN(d, n, Eigen::fix<3>));
-            if (cell.ties)
-              block = (*cell.ties)[c] * block * (*cell.ties)[d].transpose();
-            arrays.tangent(rows(c), rows(d)) += block;
-          }
+          arrays.tangent(rows(c), rows(d)) +=
+              cell.scatter.to_masters(c, d, K(Eigen::seqN(c, n, Eigen::fix<3>), Eigen::seqN(d, n, Eigen::fix<3>)));
     }
 }
 
@@ -194,11 +127,11 @@ template <class Model>
 void InterfaceTerms<Model>::add_phase(const Cell &cell, const Vector &phase, Part part, Arrays &arrays) const
 {
   // Tied values are where their ties put them, so that R^T K R phi_free = R^T K phi.
-  const int  n = cell.n(), multiplier = n * n_fields + spacedim;
+  const auto n = cell.n(), multiplier = n * n_fields + spacedim;
   const auto rows = Eigen::seqN(spacedim, n, Eigen::fix<n_fields>);
   if (part == Part::constraint_rows)
     return;
-  const auto phi = phase_values(cell, phase);
+  const auto phi = cell.scatter.phase(phase, cell.n());
   if (cell.phase_penalty.size() > 0)
     {
       arrays.force(rows) += (cell.phase_penalty * phi).eval();
@@ -207,7 +140,7 @@ void InterfaceTerms<Model>::add_phase(const Cell &cell, const Vector &phase, Par
     }
   if (cell.has_phase_multiplier())
     {
-      const double q = phase.local()[cell.points[n]];
+      const double q = phase.local()[cell.multiplier];
       arrays.force(rows) += q * cell.phase_jump;
       arrays.force[multiplier] += cell.phase_jump.dot(phi) - cell.phase_compliance * q;
       if (part == Part::force_and_tangent)
@@ -223,7 +156,7 @@ template <class Model>
 auto InterfaceTerms<Model>::arrays(const Cell &cell, const Vector &position, const Vector &phase, Part part) const
     -> Arrays
 {
-  const auto size = static_cast<Eigen::Index>(cell.points.size()) * n_fields;
+  const auto size = static_cast<Eigen::Index>(cell.scatter.points().size()) * n_fields;
   Arrays     result;
   if (part != Part::constraint_rows)
     result.force = Eigen::VectorXd::Zero(size);
@@ -239,34 +172,10 @@ auto InterfaceTerms<Model>::arrays(const Cell &cell, const Vector &position, con
 }
 
 template <class Model>
-void InterfaceTerms<Model>::scatter(const Cell &cell, const Eigen::VectorXd &from, Vector &force) const
-{
-  for (std::size_t i = 0; i < cell.points.size(); ++i)
-    if (cell.points[i] < n_owned_)
-      for (int c = 0; c < n_fields; ++c)
-        force.local()[cell.points[i] * n_fields + c] += from[i * n_fields + c];
-}
-
-template <class Model>
-void InterfaceTerms<Model>::scatter(const Cell &cell, const Eigen::MatrixXd &from, Matrix &matrix) const
-{
-  const auto size = cell.points.size();
-  for (std::size_t i = 0; i < size; ++i)
-    if (const int point = cell.points[i]; point < n_owned_)
-      for (int c = 0; c < n_fields; ++c)
-        {
-          double *row = matrix.values().data() + matrix.row_start(point) + c * matrix.row_length(point);
-          for (std::size_t j = 0; j < size; ++j)
-            for (int d = 0; d < n_fields; ++d)
-              row[cell.positions[i * size + j] * n_fields + d] += from(i * n_fields + c, j * n_fields + d);
-        }
-}
-
-template <class Model>
 void InterfaceTerms<Model>::add_force(const Vector &position, const Vector &phase, Vector &force) const
 {
   for (const auto &cell : cells_)
-    scatter(cell, arrays(cell, position, phase, Part::force).force, force);
+    cell.scatter.add(arrays(cell, position, phase, Part::force).force, force);
 }
 
 template <class Model>
@@ -275,8 +184,8 @@ void InterfaceTerms<Model>::linearise(const Vector &position, const Vector &phas
   for (const auto &cell : cells_)
     {
       const auto result = arrays(cell, position, phase, Part::force_and_tangent);
-      scatter(cell, result.force, force);
-      scatter(cell, result.tangent, matrix);
+      cell.scatter.add(result.force, force);
+      cell.scatter.add(result.tangent, matrix);
     }
 }
 
@@ -289,7 +198,7 @@ void InterfaceTerms<Model>::constrain_acceleration(const Vector &position, Matri
         mass.diagonal(point, c) = 0.;
   for (const auto &cell : cells_)
     if (cell.has_multiplier())
-      scatter(cell, arrays(cell, position, position, Part::constraint_rows).tangent, mass);
+      cell.scatter.add(arrays(cell, position, position, Part::constraint_rows).tangent, mass);
 }
 
 template <class Model>
@@ -311,19 +220,20 @@ double InterfaceTerms<Model>::energy(const Vector &position, const Vector &phase
         if constexpr (spacedim == 3)
           {
             if (cell.angle_stiffness > 0.)
-              sum += angle_penalty_energy(cell.tables, control_values(cell, position), cell.angle_stiffness);
+              sum += angle_penalty_energy(cell.tables, cell.scatter.position(position, cell.n()), cell.angle_stiffness);
             if (cell.has_angle_multiplier())
               {
-                const double q = position.local()[cell.points.back() * spacedim];
-                sum += q * (angle_defect(cell.tables, control_values(cell, position)) - .5 * cell.angle_compliance * q);
+                const double q = position.local()[cell.multiplier * spacedim];
+                sum += q * (angle_defect(cell.tables, cell.scatter.position(position, cell.n())) -
+                            .5 * cell.angle_compliance * q);
               }
           }
-        const auto phi = phase_values(cell, phase);
+        const auto phi = cell.scatter.phase(phase, cell.n());
         if (cell.phase_penalty.size() > 0)
           sum += .5 * phi.dot(cell.phase_penalty * phi);
         if (cell.has_phase_multiplier())
           {
-            const double q = phase.local()[cell.points.back()];
+            const double q = phase.local()[cell.multiplier];
             sum += q * (cell.phase_jump.dot(phi) - .5 * cell.phase_compliance * q);
           }
       }
@@ -335,9 +245,9 @@ auto InterfaceTerms<Model>::defects(const Vector &residual) const -> Defects
 {
   Defects result;
   for (const auto &cell : cells_)
-    if (cell.has_multiplier() && cell.points.back() < n_owned_)
+    if (cell.has_multiplier() && cell.multiplier < n_owned_)
       {
-        const auto row   = residual.local().subspan(cell.points.back() * n_fields, n_fields);
+        const auto row   = residual.local().subspan(cell.multiplier * n_fields, n_fields);
         const auto raise = [](double &largest, double value) {
           if (!(value <= largest)) // so that what is not a number stays
             largest = value;

@@ -11,8 +11,8 @@
 namespace sherd
 {
 
-/// Loads of one time, evaluated where the element loop integrates them. Made by Assembler::evaluate; belongs to its
-/// mesh.
+/// Loads of one time, evaluated where the element loop integrates them, and that time, at which weak conditions on
+/// edges are asked for. Made by Assembler::evaluate; belongs to its mesh.
 template <class Model>
 struct LoadValues
 {
@@ -23,6 +23,7 @@ struct LoadValues
     PieceMoment<Model::degree>     moment;
   };
 
+  double                              time = 0.;
   std::optional<Vector>               dead;     ///< force of the dead loads, block n_fields; none: zero
   std::vector<ElementPressure<Model>> pressure; ///< of each active element; empty: none
   std::vector<EdgeMoment>             moments;
@@ -34,6 +35,7 @@ LoadValues<Model> interpolate(double weight, const LoadValues<Model> &a, const L
 {
   LoadValues<Model> result = a;
   const auto        mix    = [weight](double &x, double y) { x += weight * (y - x); };
+  mix(result.time, b.time);
   if (result.dead)
     for (std::size_t i = 0; i < result.dead->local().size(); ++i)
       mix(result.dead->local()[i], b.dead->local()[i]);

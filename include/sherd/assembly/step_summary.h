@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct StepSummary
   StepWork                 work;               ///< over the step
   double                   withheld_work = 0.; ///< by the history over the step [energy]
   double                   largest_phase = 0.;
-  Energies                 before;   ///< at the beginning of the step, on its mesh
+  std::optional<Energies>  before;   ///< at its beginning, if the mesh has changed since the step before
   Energies                 energies; ///< at the end of the step, before a refinement
   std::vector<std::string> messages; ///< rejections and escalations, one line each
 };

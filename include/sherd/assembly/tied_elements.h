@@ -1,13 +1,9 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cassert>
 #include <vector>
 
+#include <sherd/assembly/tie_transfers.h>
 #include <sherd/space/shell_space.h>
-#include <sherd/space/ties.h>
-#include <sherd/spline/extraction.h>
 
 namespace sherd
 {
@@ -28,41 +24,19 @@ public:
   {
     if (ties.empty())
       return;
-    const auto                   &d = space.distribution();
-    std::vector<std::vector<int>> ties_of(space.surface().n_control_points());
-    for (std::size_t t = 0; t < ties.size(); ++t)
-      ties_of[ties[t].point].push_back(static_cast<int>(t));
+    const TiesByPoint by_point(ties, space.surface().n_control_points());
+    std::vector<int>  points;
     for (int e = 0; e < space.n_active_elements(); ++e)
       {
-        const auto [p, local]      = space.surface().locate_element(d.elements[e]);
-        const auto      &basis     = space.surface().patch(p).basis;
-        const auto       functions = basis.functions_of(local);
-        const int        n         = static_cast<int>(functions.size());
-        std::vector<int> points(n);
-        bool             tied = false;
-        for (int i = 0; i < n; ++i)
+        const auto [p, local] = space.surface().locate_element(space.distribution().elements[e]);
+        points.clear();
+        for (const int function : space.surface().patch(p).basis.functions_of(local))
+          points.push_back(space.surface().point(p, function));
+        if (auto transfers = by_point.template transfers<n_fields>(points))
           {
-            points[i] = space.surface().point(p, functions[i]);
-            tied      = tied || !ties_of[points[i]].empty();
+            index_[e] = static_cast<int>(transfers_.size());
+            transfers_.push_back(std::move(*transfers));
           }
-        if (!tied)
-          continue;
-        Transfers transfer;
-        transfer.fill(Eigen::MatrixXd::Identity(n, n));
-        for (int i = 0; i < n; ++i)
-          for (const int t : ties_of[points[i]])
-            {
-              auto &R = transfer[ties[t].field];
-              R(i, i) = 0.;
-              for (std::size_t m = 0; m < ties[t].masters.size(); ++m)
-                {
-                  const auto found = std::find(points.begin(), points.end(), ties[t].masters[m]);
-                  assert(found != points.end());
-                  R(found - points.begin(), i) = ties[t].factors[m];
-                }
-            }
-        index_[e] = static_cast<int>(transfers_.size());
-        transfers_.push_back(std::move(transfer));
       }
   }
 
@@ -76,10 +50,8 @@ public:
   const Eigen::MatrixXd &transfer(int index, int field) const { return transfers_[index][field]; }
 
 private:
-  using Transfers = std::array<Eigen::MatrixXd, n_fields>;
-
-  std::vector<int>       index_; ///< into transfers_, or -1, shape=(n_active)
-  std::vector<Transfers> transfers_;
+  std::vector<int>                    index_; ///< into transfers_, or -1, shape=(n_active)
+  std::vector<TieTransfers<n_fields>> transfers_;
 };
 
 } // namespace sherd

@@ -50,6 +50,12 @@ inline double degraded_energy(const SplitResponse<spacedim> &response, double g)
 
 } // namespace internal
 
+/// int_e Psi dA / int_e dA of an element with Psi = g Psi+ + Psi- (elastic) and Psi_frac (fracture) [energy/area].
+struct ElementDensities
+{
+  double elastic, fracture;
+};
+
 /// Energies of one element. Membrane energy is that of the point with k_ab = 0, bending energy the rest: exact where
 /// the law separates them; where layers crack one by one, the way in which the degraded energy is shared. The fields
 /// hold the end of the step, with the velocity in place of the acceleration.
@@ -75,7 +81,8 @@ Energies element_energies(const Model &model, const ElementData<Model> &data, co
           const double g    = model.degradation.value(p.phi);
           const auto   flat = model.split.respond(
                 internal::without_bending(surface_point(data.reference[q], p.frame), data.reference[q]));
-          sum.bending += reference.dA * (internal::degraded_energy(p.response, g) - internal::degraded_energy(flat, g));
+          sum.bending += reference.dA * (internal::degraded_energy(p.response, g) -
+                                         data.stiffness[q] * internal::degraded_energy(flat, g));
         }
       sum.kinetic += reference.dA * .5 * model.mass * p.inertia.squaredNorm();
       const double crack =

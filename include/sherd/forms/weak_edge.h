@@ -26,7 +26,7 @@ namespace internal
 template <int degree>
 struct EdgeNormal
 {
-  Point<3>  a1 = Point<3>::Zero(), a2 = Point<3>::Zero();
+  Point<3>   a1 = Point<3>::Zero(), a2 = Point<3>::Zero();
   UnitVector n;
 
   static EdgeNormal at(const EdgeGeometry<degree, 3> &piece, const ControlValues<3> &x, int q)
@@ -193,14 +193,16 @@ Eigen::MatrixXd symmetry_tangent(const EdgeGeometry<degree, 3> &piece, const Con
 }
 
 /// Matrix of int eps/2 (nu^a phi_,a)^2 dS, shape=(n, n): the phase field is level across the edge, which a plane of
-/// symmetry asks of a fourth-order crack density. @param stiffness   eps [energy * length]
+/// symmetry asks of a fourth-order crack density. @param stiffness   eps at each quadrature point [energy * length]
 template <int degree, int spacedim>
-Eigen::MatrixXd phase_symmetry_matrix(const EdgeGeometry<degree, spacedim> &piece, double stiffness)
+Eigen::MatrixXd phase_symmetry_matrix(const EdgeGeometry<degree, spacedim> &piece,
+                                      const std::array<double, degree + 1> &stiffness)
 {
   const auto      n      = static_cast<Eigen::Index>(piece.points.size());
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
-  for (const auto &point : piece.quadrature)
+  for (int q = 0; q <= degree; ++q)
     {
+      const auto     &point = piece.quadrature[q];
       const auto      A     = metric<spacedim>(point.A1, point.A2).contravariant;
       const double    e     = piece.normal_direction == 0 ? A[0] : A[1];
       const double    nu[2] = {piece.outward * (piece.normal_direction == 0 ? A[0] : A[2]) / std::sqrt(e),
@@ -208,7 +210,7 @@ Eigen::MatrixXd phase_symmetry_matrix(const EdgeGeometry<degree, spacedim> &piec
       Eigen::VectorXd b(n);
       for (Eigen::Index k = 0; k < n; ++k)
         b[k] = nu[0] * point.d1[k] + nu[1] * point.d2[k];
-      result += stiffness * point.dS * b * b.transpose();
+      result += stiffness[q] * point.dS * b * b.transpose();
     }
   return result;
 }

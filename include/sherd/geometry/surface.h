@@ -87,11 +87,9 @@ public:
   SurfaceRefinement refine_to(const std::vector<int> &points, const std::vector<SpanTarget> &targets);
 
 private:
-  std::vector<Refinement> refine_patches(const std::vector<std::vector<int>> &marked,
-                                         const std::vector<SpanTarget>       &targets);
-  void                    number();
-  void                    equalise();
-  Location                source_of(int point) const; ///< whose values all patches of the control point get
+  void     number();
+  void     equalise();
+  Location source_of(int point) const; ///< whose values all patches of the control point get
 
   std::vector<PatchType>                   patches_;
   std::map<std::string, std::vector<Edge>> edges_;

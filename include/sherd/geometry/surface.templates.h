@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <set>
 
 #include <sherd/base/print.h>
+#include <sherd/geometry/interface_closure.h>
 #include <sherd/geometry/surface.h>
 #include <sherd/spline/independence.h>
 
@@ -15,37 +15,6 @@ namespace sherd
 
 namespace internal
 {
-
-inline std::string describe(const Interface &interface)
-{
-  return sherd::describe(interface.first) + " and " + sherd::describe(interface.second);
-}
-
-/// Functions along both sides of an interface, with marks that count along the first.
-template <int degree>
-struct InterfaceFunctions
-{
-  std::array<std::vector<SideFunction<degree>>, 2> sides;
-
-  template <int spacedim>
-  InterfaceFunctions(const std::vector<Patch<degree, spacedim>> &patches, const Interface &interface)
-      : sides{side_functions(patches[interface.first.patch].basis, interface.first.side, false),
-              side_functions(patches[interface.second.patch].basis, interface.second.side, interface.reversed)}
-  {
-  }
-
-  bool agree() const
-  {
-    return std::equal(sides[0].begin(), sides[0].end(), sides[1].begin(), sides[1].end(),
-                      [](const auto &a, const auto &b) { return a.marks == b.marks; });
-  }
-};
-
-template <int degree, int spacedim>
-SideRuler side_ruler(const Patch<degree, spacedim> &patch, Side side, bool reversed)
-{
-  return SideRuler(patch.basis.initial_knots()[1 - normal_direction(side)], reversed);
-}
 
 /// Largest extent of the control points in any direction.
 template <int degree, int spacedim>
@@ -300,7 +269,7 @@ SurfaceRefinement Surface<degree, spacedim>::refine_to(const std::vector<int>   
       for (const auto &[p, local] : locations_of(point))
         marked[p].push_back(local);
     }
-  auto refined = refine_patches(marked, targets);
+  auto refined = internal::refine_joined(patches_, interfaces_, marked, targets);
   for (int p = 0; p < n_patches(); ++p)
     if (const auto check = check_independence(patches_[p].basis); !check.independent())
       throw Error("surface: refinement made " + std::to_string(check.dependent.size()) + " functions of patch " +
@@ -342,66 +311,6 @@ SurfaceRefinement Surface<degree, spacedim>::refine_to(const std::vector<int>   
       result.transfer.offsets.push_back(static_cast<int>(result.transfer.columns.size()));
     }
   return result;
-}
-
-/// Refines the marked functions of each patch, then sides of interfaces until they agree.
-template <int degree, int spacedim>
-std::vector<Refinement> Surface<degree, spacedim>::refine_patches(const std::vector<std::vector<int>> &marked,
-                                                                  const std::vector<SpanTarget>       &targets)
-{
-  std::vector<std::vector<MeshLine>> lines;
-  for (int p = 0; p < n_patches(); ++p)
-    lines.push_back(structured_mesh_lines(patches_[p].basis, marked[p], targets[p]));
-  std::vector<std::optional<Refinement>> refined(patches_.size());
-
-  // Every round but the last inserts a knot that the other side has and this one has not, or halves spans above the
-  // target; knots only travel, so that their number is limited. The limit is for surfaces whose interfaces lead a knot
-  // back to another place.
-  constexpr int largest_number_of_rounds = 1000;
-  for (int round = 0; round < largest_number_of_rounds; ++round)
-    {
-      for (int p = 0; p < n_patches(); ++p)
-        if (!lines[p].empty() || !refined[p])
-          {
-            auto inserted = patches_[p].basis.insert(lines[p]);
-            refined[p]    = refined[p] ? compose(inserted, *refined[p]) : std::move(inserted);
-            lines[p].clear();
-          }
-      bool agree = true;
-      for (const auto &interface : interfaces_)
-        {
-          const internal::InterfaceFunctions<degree> functions(patches_, interface);
-          if (functions.agree())
-            continue;
-          agree      = false;
-          bool empty = true;
-          for (int s = 0; s < 2; ++s)
-            {
-              const Edge &edge  = s == 0 ? interface.first : interface.second;
-              const auto &patch = patches_[edge.patch];
-              const auto  ruler = internal::side_ruler(patch, edge.side, s == 1 && interface.reversed);
-              for (const auto &line : internal::closing_lines(patch.basis, edge, ruler, functions.sides[s],
-                                                              functions.sides[1 - s], targets[edge.patch]))
-                {
-                  lines[edge.patch].push_back(line);
-                  empty = false;
-                }
-            }
-          if (empty)
-            throw Error("surface: refinement left different functions on " + internal::describe(interface) +
-                        "; refine a wider neighbourhood (theory H.6)");
-        }
-      if (agree)
-        {
-          std::vector<Refinement> result;
-          for (auto &refinement : refined)
-            result.push_back(std::move(*refinement));
-          return result;
-        }
-    }
-  throw Error("surface: refinement across interfaces did not end after " + std::to_string(largest_number_of_rounds) +
-              " rounds; check whether a chain of interfaces leads a side "
-              "back to itself at another scale");
 }
 
 template <int degree, int spacedim>

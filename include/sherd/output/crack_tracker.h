@@ -7,6 +7,7 @@
 #include <sherd/geometry/surface.h>
 #include <sherd/output/crack_tree.h>
 #include <sherd/output/join_cracks.h>
+#include <sherd/output/merge_bands.h>
 
 namespace sherd
 {
@@ -47,7 +48,7 @@ SampleGrid sample_broken_set(const Patch<degree, spacedim> &patch, const Eigen::
 /// so two steps differ by what the cracks did, not by how they were looked at. Feed every accepted step and none
 /// that was rejected. Where a band ends is where phi = threshold on its axis: the tip is that point, and the length
 /// includes the way to it. Sides of patches that no interface joins are edges of the body; cracks are joined across
-/// interfaces (join_cracks). A crack whose band an interface cuts lengthwise is seen once on each side.
+/// interfaces (join_cracks), and along those that cut a band lengthwise (merge_bands).
 /// A plain value: copy it to keep or restore it. Serial: runs where a complete phase field is.
 class CrackTracker
 {
@@ -78,8 +79,8 @@ public:
 private:
   std::vector<Eigen::Vector3d> branch_points() const;
   std::vector<int>             ends_inside() const;
-  void                         join(const std::vector<int> &patch_of_arm, const std::vector<char> &self_joined,
-                                    const std::vector<Eigen::Vector3d> &broken);
+  void join(PatchedCracks cracks, const std::vector<char> &self_joined, const std::vector<BrokenRun> &runs,
+            const Pruning &pruning);
 
   CrackOptions                 options_;
   std::vector<SampleLattice>   lattices_;
@@ -89,5 +90,3 @@ private:
 };
 
 } // namespace sherd
-
-#include <sherd/output/crack_tracker.templates.h>

@@ -78,32 +78,43 @@ std::vector<std::array<double, 2>> parameters_along_side(const Patch<degree, spa
   return result;
 }
 
-/// Points along the interfaces, a sample apart, where phi is below the threshold.
+/// The stretches of all interfaces where phi is below the threshold, as points a sample apart.
 template <int degree, int spacedim>
-std::vector<Eigen::Vector3d> broken_interface_points(const Surface<degree, spacedim>  &surface,
-                                                     const Eigen::VectorXd            &phase,
-                                                     const std::vector<SampleLattice> &lattices, double threshold)
+std::vector<BrokenRun> broken_runs(const Surface<degree, spacedim> &surface, const Eigen::VectorXd &phase,
+                                   const std::vector<SampleLattice> &lattices, double threshold)
 {
-  std::vector<Eigen::Vector3d> result;
+  std::vector<BrokenRun> result;
   for (const auto &interface : surface.interfaces())
     {
-      const int   p      = interface.first.patch;
-      const auto &patch  = surface.patch(p);
-      const auto  points = surface.points_of_patch(p);
-      for (const auto &at : parameters_along_side(patch, interface.first.side, lattices[p]))
-        {
-          const int  e         = patch.basis.element_at(at[0], at[1]);
-          const auto functions = patch.basis.functions_of(e);
-          // phi lies between its control values.
-          if (std::none_of(functions.begin(), functions.end(), [&](int i) { return phase[points[i]] < threshold; }))
-            continue;
-          const auto shape = evaluate(surface, SurfacePlace{p, at[0], at[1]});
-          double     phi   = 0.;
-          for (std::size_t k = 0; k < shape.points.size(); ++k)
-            phi += shape.value[k] * phase[shape.points[k]];
-          if (phi < threshold)
-            result.push_back(position(patch, at[0], at[1]));
-        }
+      const int   p          = interface.first.patch;
+      const auto &patch      = surface.patch(p);
+      const auto  points     = surface.points_of_patch(p);
+      const auto  parameters = parameters_along_side(patch, interface.first.side, lattices[p]);
+      const auto  is_broken  = [&](const std::array<double, 2> &at) {
+        const auto functions = patch.basis.functions_of(patch.basis.element_at(at[0], at[1]));
+        // phi lies between its control values.
+        if (std::none_of(functions.begin(), functions.end(), [&](int i) { return phase[points[i]] < threshold; }))
+          return false;
+        const auto shape = evaluate(surface, SurfacePlace{p, at[0], at[1]});
+        double     phi   = 0.;
+        for (std::size_t k = 0; k < shape.points.size(); ++k)
+          phi += shape.value[k] * phase[shape.points[k]];
+        return phi < threshold;
+      };
+      for (std::size_t begin = 0; begin < parameters.size(); ++begin)
+        if (is_broken(parameters[begin]))
+          {
+            auto       &run = result.emplace_back();
+            std::size_t end = begin;
+            for (; end < parameters.size() && (end == begin || is_broken(parameters[end])); ++end)
+              run.points.push_back(position(patch, parameters[end][0], parameters[end][1]));
+            run.patches     = {p, interface.second.patch};
+            const int d     = normal_direction(interface.first.side);
+            auto      inner = parameters[(begin + end) / 2];
+            inner[d] += (at_maximum(interface.first.side) ? -1. : 1.) * lattices[p].spacing[d];
+            run.across = run.points[run.points.size() / 2] - position(patch, inner[0], inner[1]);
+            begin      = end;
+          }
     }
   return result;
 }
@@ -214,11 +225,14 @@ void CrackTracker::update(const Surface<degree, spacedim> &surface, const Eigen:
   if (phase.size() != surface.n_control_points())
     throw DimensionMismatch("crack tracker: " + std::to_string(phase.size()) + " phase values for " +
                             std::to_string(surface.n_control_points()) + " control points");
-  const auto    known = branch_points();
-  const double  l0    = options_.length_scale;
-  const Pruning pruning{4. * l0, 2. * l0, 2. * l0, known};
-  cracks_ = {};
-  std::vector<int>  patch_of_arm;
+  const auto                   known = branch_points();
+  const double                 l0    = options_.length_scale;
+  const auto                   runs  = internal::broken_runs(surface, phase, lattices_, options_.threshold);
+  std::vector<Eigen::Vector3d> broken;
+  for (const auto &run : runs)
+    broken.insert(broken.end(), run.points.begin(), run.points.end());
+  const Pruning     pruning{4. * l0, 2. * l0, 2. * l0, known, broken};
+  PatchedCracks     cracks;
   std::vector<char> self_joined(surface.n_patches(), 0);
   for (const auto &interface : surface.interfaces())
     if (interface.first.patch == interface.second.patch)
@@ -250,10 +264,9 @@ void CrackTracker::update(const Surface<degree, spacedim> &surface, const Eigen:
                                options_.threshold};
       const auto         grid = sample_broken_set(patch, values, lattice, options_.threshold);
       if (!grid.samples().empty())
-        cracks_.append(crack_graph(grid, field, pruning));
-      patch_of_arm.resize(cracks_.arms.size(), p);
+        cracks.append(crack_graph(grid, field, pruning), p);
     }
-  join(patch_of_arm, self_joined, internal::broken_interface_points(surface, phase, lattices_, options_.threshold));
+  join(std::move(cracks), self_joined, runs, pruning);
   tree_.advance(cracks_, ends_inside(), time);
 }
 

@@ -11,7 +11,7 @@ namespace sherd
 struct CutEnd
 {
   int node;     ///< of the graph
-  int patch;    ///< that it comes from
+  int patch;    ///< that it comes from; -1: it lies on an interface
   int crossing; ///< connected part of the broken set on the interfaces at which it ends
 };
 
@@ -31,10 +31,11 @@ std::vector<int> connected_parts(const std::vector<Eigen::Vector3d> &points, dou
 /// Pairs of ends of one crossing and different patches are joined, the closest first: both arms are cut back by the
 /// trim, at most by half their length, and continue each other in a straight line. An end that is left over branches
 /// from the closest arm of another patch, as where side arms too short to count in their patch go on in the next; if
-/// there is none, it stays an end.
-/// @param patch_of_arm   shape=(n_arms)
+/// there is none, it stays an end, as an end on an interface does. Then side arms and bridges between branch points
+/// that were cut by interfaces are noise, by the same limits as those inside of a patch.
+/// @param patch_of_arm   shape=(n_arms); -1: at least in part on an interface
 /// @param self_joined    1 for each patch that is joined to itself; its ends may be joined with each other
 void join_cracks(CrackGraph &graph, const std::vector<int> &patch_of_arm, const std::vector<CutEnd> &ends,
-                 const std::vector<char> &self_joined, const JoinDistances &distances);
+                 const std::vector<char> &self_joined, const JoinDistances &distances, const Pruning &pruning);
 
 } // namespace sherd

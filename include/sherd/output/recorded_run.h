@@ -46,6 +46,7 @@ public:
         recorder_(make_recorder(env, directory, initial, checkpoint, completed(recording, solver, controller), solver,
                                 state)),
         solver_(solver),
+        source_(solver),
         space_(space),
         state_(state),
         controller_(controller)
@@ -56,7 +57,7 @@ public:
         frames.push_back(recording.frame_time(k));
     controller.stop_at(frames);
     if (!checkpoint)
-      recorder_.start(solver_, space_, state_);
+      recorder_.start(source_, space_, state_);
   }
 
   /// One accepted step.
@@ -67,25 +68,25 @@ public:
   template <std::invocable Advance>
   void step(const Advance &advance)
   {
-    recorder_.record(solver_, space_, state_, attempt(advance));
+    recorder_.record(source_, space_, state_, attempt(advance));
     const auto reason = stop_requested(env_);
     if (reason || checkpoints_.due(state_.step))
       write_checkpoint();
     if (reason)
       {
-        recorder_.finish(solver_, *reason);
+        recorder_.finish(source_, *reason);
         throw StoppedEarly("at t = " + print(state_.time) + ": " + *reason + "; " + checkpoints_.advice());
       }
   }
 
   /// A checkpoint of the present step, beside those that are written when they are due.
-  void write_checkpoint() { checkpoints_.write(solver_, space_, state_, controller_, recorder_); }
+  void write_checkpoint() { checkpoints_.write(solver_, space_, state_, controller_, memory()); }
 
   /// The end of the run: writes summary.json. @param ending   what ended it
-  void finish(const std::string &ending = "done") { recorder_.finish(solver_, ending); }
+  void finish(const std::string &ending = "done") { recorder_.finish(source_, ending); }
 
   /// Last row of history.csv, totals, and on rank 0 the cracks.
-  RecorderMemory memory() const { return recorder_.memory(solver_); }
+  RecorderMemory memory() { return recorder_.memory(source_); }
 
 private:
   /// With the names of the loads, and with the times that are asked of the controller.
@@ -120,7 +121,7 @@ private:
       {
         // All ranks fail together. What is known so far is worth a summary, and with other settings the run may go on.
         write_checkpoint();
-        recorder_.finish(solver_, error.what());
+        recorder_.finish(source_, error.what());
         throw NoConvergence(error.what() + ("; to retry with other settings, " + checkpoints_.advice()));
       }
   }
@@ -129,6 +130,7 @@ private:
   CheckpointWriter              checkpoints_;
   RunRecorder<degree, spacedim> recorder_;
   Solver                       &solver_;
+  SolverSource<Solver>          source_;
   const SpaceType              &space_;
   StateType                    &state_;
   const StepController         &controller_;

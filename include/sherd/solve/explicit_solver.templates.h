@@ -214,6 +214,7 @@ auto ExplicitSolver<Model>::attempt(const StateType &state, double dt) -> Result
   result.work = equations.work({before, start_->time, start_->total, start_->external}, half, no_change);
   result.work +=
       equations.work({after, end_->time, end_->total, end_->external}, half, difference(system.phase, state.phase));
+  result.work += equations.work_of_rotations(next.position, state.time, state.time + dt);
   result.work.inertial = inertial_work(state.acceleration, half) + inertial_work(next.acceleration, half);
   end.history          = this->assembler().committed(after, state.history);
   result.withheld_work = this->assembler().withheld_work(after, state.phase, end.history);

@@ -32,12 +32,14 @@ vibration_modes(const Model &model, const ShellSpace<Model::degree, Model::space
                            std::to_string(space.n_multipliers()) + " multipliers, which have no mass; use " +
                            "continuity::Penalty");
   const SupportedUnknowns<Model::degree, spacedim> supported(supports, space);
-  const Assembler<Model>                           assembler(model, space, state.distribution, supported.ties());
-  Matrix                                           stiffness = assembler.make_matrix(), mass = stiffness;
-  Vector                                           force(state.distribution, n_fields), rest = state.acceleration;
+  const Assembler<Model> assembler(model, space, state.distribution, supported.ties(), supports.weak_edges());
+  Matrix                 stiffness = assembler.make_matrix(), mass     = stiffness;
+  Vector                 force(state.distribution, n_fields), external = force, rest = state.acceleration;
   rest.fill(0.);
-  assembler.linearise({state.position, rest, state.phase}, state.history, 0., PhaseTangent::consistent, force,
-                      stiffness);
+  LoadValues<Model> none;
+  none.time = state.time;
+  assembler.linearise({state.position, rest, state.phase}, state.history, 0., PhaseTangent::consistent, none, force,
+                      external, stiffness);
   assembler.mass_matrix(mass);
   auto fixed = supported.fixed();
   for (std::size_t k = spacedim; k < fixed.size(); k += n_fields)

@@ -62,7 +62,7 @@ public:
   /// Energies of @p state. Collective.
   Energies energies(const StateType &state) const
   {
-    return assembler().energies(state.position, state.velocity, state.phase);
+    return assembler().energies(state.position, state.velocity, state.phase, state.time);
   }
 
   /// Sum of the internal and inertial forces on a named edge, at the end of the last attempted step: what its supports

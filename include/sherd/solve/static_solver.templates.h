@@ -56,7 +56,7 @@ template <class Model>
 void StaticSolver<Model>::rebuild(const StateType &state)
 {
   supported_.emplace(*supports_, *space_);
-  assembler_.emplace(*model_, *space_, state.distribution, supported_->ties());
+  assembler_.emplace(*model_, *space_, state.distribution, supported_->ties(), supports_->weak_edges());
   matrix_.emplace(assembler_->make_matrix());
   linear_solver_.forget();
   unloaded_ = assembler_->evaluate(*loads_, 0.);
@@ -97,8 +97,8 @@ auto StaticSolver<Model>::measure(const StateType &state, const Vector &internal
     -> Residual
 {
   Residual    result{internal, 0., 0.};
-  double      sums[3]  = {0., 0., 0.};                                     // residual, load, reaction
-  double      peaks[3] = {0., assembler_->interfaces().sensitivity(), 0.}; // extent, sensitivity, defect of multipliers
+  double      sums[3]    = {0., 0., 0.};                        // residual, load, reaction
+  double      peaks[3]   = {0., assembler_->sensitivity(), 0.}; // extent, sensitivity, defect of multipliers
   const auto &interfaces = assembler_->interfaces();
   for (std::size_t k = 0; k < fixed_.size(); ++k)
     {
@@ -143,10 +143,9 @@ auto StaticSolver<Model>::linearise(const StateType &state) -> Residual
 template <class Model>
 auto StaticSolver<Model>::residual(const StateType &state) -> Residual
 {
-  Vector             external(state.distribution, n_fields);
-  const BalanceLevel level{state.position, *at_rest_, state.phase};
-  assembler_->force(level, state.history, *internal_);
-  assembler_->external_force(level, loads_at(state.time), external);
+  Vector external(state.distribution, n_fields);
+  assembler_->force({state.position, *at_rest_, state.phase}, state.history, loads_at(state.time), *internal_,
+                    external);
   return measure(state, *internal_, external);
 }
 
@@ -164,11 +163,14 @@ std::vector<Vector> StaticSolver<Model>::solve_tangent(std::span<const Vector> r
 template <class Model>
 Vector StaticSolver<Model>::load_direction(const StateType &state) const
 {
-  // Both are affine in lambda, so their derivatives are differences.
+  // Loads and supports are affine in lambda, so their derivatives are differences.
   Vector             direction(state.distribution, n_fields), unloaded = direction;
   const BalanceLevel level{state.position, *at_rest_, state.phase};
   assembler_->external_force(level, *loaded_, direction);
   assembler_->external_force(level, *unloaded_, unloaded);
+  axpy(-1., unloaded, direction);
+  unloaded.fill(0.);
+  assembler_->weak_edges().add_force_rate(state.position, state.time, unloaded);
   axpy(-1., unloaded, direction);
   Vector moves = supported_->moves(state.position, 1.);
   axpy(-1., supported_->moves(state.position, 0.), moves);

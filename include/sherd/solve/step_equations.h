@@ -80,6 +80,10 @@ public:
   /// Work of forces over a way; multipliers do none.
   StepWork work(const BalancedForces &forces, const Vector &displacement, const Vector &phase_change) const;
 
+  /// Work of rotations that are prescribed in weak form, between two times at a position: they change the energy of the
+  /// penalty without any motion, from outside and within alike.
+  StepWork work_of_rotations(const Vector &position, double start, double end) const;
+
   /// Solves M a = f_ext - f_int at the time of @p state with the consistent mass. @p matrix is overwritten.
   void set_initial_acceleration(StateType &state, Matrix &matrix) const;
 

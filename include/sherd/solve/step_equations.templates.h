@@ -14,7 +14,7 @@ template <class Model>
 void StepEquations<Model>::rebuild(const StateType &state)
 {
   supported_.emplace(*supports_, *space_);
-  assembler_.emplace(*model_, *space_, state.distribution, supported_->ties());
+  assembler_.emplace(*model_, *space_, state.distribution, supported_->ties(), supports_->weak_edges());
   phase_only_ = supported_->fixed();
   for (std::size_t i = 0; i < phase_only_.size(); ++i)
     if (i % n_fields != spacedim)
@@ -49,8 +49,8 @@ ResidualNorms StepEquations<Model>::balance(System &system, Vector force)
   const auto &interfaces = assembler_->interfaces();
   const auto &fixed      = *system.fixed;
   double      sums[4]    = {0., 0., 0., 0.};
-  double      peaks[5]   = {0., 0., interfaces.sensitivity(), 0., 0.}; // scaled phase residual, extent of the body,
-                                                                       // sensitivity, defects of multipliers
+  double      peaks[5]   = {0., 0., assembler_->sensitivity(), 0., 0.}; // scaled phase residual, extent of the body,
+                                                                        // sensitivity, defects of multipliers
   const int    n_owned = assembler_->distribution()->n_owned();
   const double nan     = std::numeric_limits<double>::quiet_NaN();
   for (int i = 0; i < n_owned; ++i)
@@ -141,6 +141,7 @@ auto StepEquations<Model>::take_stages(const StateType &state, double dt, const 
       result.newton = std::max(result.newton, newton);
       result.work += work({system.level(), load_time, *total_force_, system.external},
                           difference(system.next.position, end.position), difference(system.phase, end.phase));
+      result.work += work_of_rotations(system.position, state.time + elapsed, state.time + stage.dt);
       QuadratureField history = assembler_->committed(system.level(), end.history);
       result.withheld_work += assembler_->withheld_work(system.level(), end.phase, history);
       if (stage.has_inertia())
@@ -206,6 +207,16 @@ StepWork StepEquations<Model>::work(const BalancedForces &forces, const Vector &
   return step_work(
       *assembler_, *loads_, forces, [this](std::size_t k) { return supported_->is_held(k); }, displacement,
       phase_change);
+}
+
+template <class Model>
+StepWork StepEquations<Model>::work_of_rotations(const Vector &position, double start, double end) const
+{
+  double work = assembler_->weak_edges().work(position, start, end);
+  MPI_Allreduce(MPI_IN_PLACE, &work, 1, MPI_DOUBLE, MPI_SUM, assembler_->distribution()->comm());
+  StepWork result;
+  result.external.supports = result.internal = work;
+  return result;
 }
 
 template <class Model>

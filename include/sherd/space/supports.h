@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <sherd/space/region.h>
@@ -26,9 +27,11 @@ enum class Rows
   first_second ///< position and tangent plane (points_along and second_row_along)
 };
 
-/// Strong supports of a surface: displacement components that are zero or prescribed functions of time, the same on the
-/// whole region, and symmetries. Declared once; they follow refinement because they name edges, not unknowns. Where
-/// regions meet, the support declared last holds.
+/// Supports of a surface: displacement components that are zero or prescribed functions of time, the same on the whole
+/// region, and conditions on the tangent plane and the phase field along edges. These have a strong form, exact, by the
+/// control points next to the edge, and a weak one, by penalty, that asks nothing of the parameter lines there.
+/// Declared once; they follow refinement because they name edges, not unknowns. Where regions meet, the displacement
+/// declared last holds.
 class Supports
 {
 public:
@@ -45,6 +48,29 @@ public:
   {
     std::string              edge;
     std::optional<Component> normal; ///< of the plane of symmetry; empty: of the phase alone
+  };
+
+  /// A condition along an edge by penalty, forms/weak_edge.h.
+  struct WeakEdge
+  {
+    /// The normal is the reference normal, turned about the edge by an angle of time.
+    struct HeldNormal
+    {
+      std::function<double(double)> angle;
+    };
+    /// The normal keeps its component along an axis.
+    struct SymmetricNormal
+    {
+      Component axis;
+    };
+    /// The derivative of the phase across the edge vanishes.
+    struct LevelPhase
+    {
+    };
+
+    std::string                                           edge;
+    std::variant<HeldNormal, SymmetricNormal, LevelPhase> condition;
+    double                                                factor; ///< beta of theory G.3; 0: the default
   };
 
   /// u_component = 0 on @p region.
@@ -71,12 +97,31 @@ public:
   /// The derivative of the phase across @p edge vanishes; displacements are not touched.
   void phase_symmetry(const std::string &edge);
 
+  /// clamp() in weak form: u = 0 on @p edge, and its normal is held by penalty, also where parameter lines cross the
+  /// edge at any angle and where it is rational.
+  /// @param factors   of the penalties, by default those that continuity across interfaces has (theory G.3)
+  void clamp_weakly(const std::string &edge, const continuity::Penalty &factors = {});
+
+  /// Turns the normal along @p edge by angle(t) about the edge, by penalty: a positive angle takes it towards the
+  /// outward conormal of the reference surface, as a positive edge moment does. Displacements are not touched.
+  void rotate(const std::string &edge, std::function<double(double)> angle, const continuity::Penalty &factors = {});
+
+  /// symmetry() in weak form: u_normal = 0 on @p edge, the normal of the surface stays in the plane of symmetry and the
+  /// phase level across the edge, both by penalty. The surface has to meet the plane at right angles, parameter lines
+  /// need not.
+  void symmetry_weakly(const std::string &edge, Component normal, const continuity::Penalty &factors = {});
+
+  /// phase_symmetry() in weak form.
+  void phase_symmetry_weakly(const std::string &edge, const continuity::Penalty &factors = {});
+
   const std::vector<Support>  &list() const { return supports_; }
   const std::vector<Symmetry> &symmetries() const { return symmetries_; }
+  const std::vector<WeakEdge> &weak_edges() const { return weak_edges_; }
 
 private:
   std::vector<Support>  supports_;
   std::vector<Symmetry> symmetries_;
+  std::vector<WeakEdge> weak_edges_;
 };
 
 /// The number of @p component. @p where names the support in the message.
