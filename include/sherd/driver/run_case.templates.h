@@ -102,6 +102,7 @@ public:
       support.displacement(0.);
     const Adaptivity<Model> adaptivity(blank_, prm_.refinement);
     const StepController    controller(prm_.time.steps);
+    restart_checkpoint(env_, blank_); // with --restart
     on_root(env_.comm(), [&] {
       std::cout << "input is valid: " << prm_.surface.shape << ", " << surface_.n_patches()
                 << (surface_.n_patches() == 1 ? " patch" : " patches") << ", degree " << degree << ", "
