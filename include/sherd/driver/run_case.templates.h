@@ -9,6 +9,7 @@
 #include <sherd/driver/make_surface.h>
 #include <sherd/driver/run_case.h>
 #include <sherd/driver/stop_criteria.h>
+#include <sherd/output/probes.templates.h>
 #include <sherd/output/recorded_run.h>
 
 namespace sherd
