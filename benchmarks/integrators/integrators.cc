@@ -240,7 +240,8 @@ void vibrate_shell(const Environment &env, const Parameters &prm)
             auto         result = solver.attempt(state, size);
             if (!result.state)
               throw NoConvergence("vibrating shell at t = " + print(state.time) + ": " + result.failure);
-            StepSummary step{.dt = size, .newton = result.newton};
+            StepSummary step;
+            step.dt            = size;
             step.work          = result.work;
             step.withheld_work = result.withheld_work;
             step.energies      = solver.energies(*result.state);

@@ -164,7 +164,7 @@ TEST_CASE("CrackTracker: an X on a sphere has four arms, across interfaces too",
 TEST_CASE("CrackTracker: a crack that branches on a sphere keeps its tips and their tree across interfaces",
           "[output][crack]")
 {
-  const double   speed = .5 * c_R, dt = .3 * l0 / c_R, stem = .7, opening = 35. * pi / 180.;
+  const double   speed = .5 * c_R, dt = .3 * l0 / c_R, stem = .35, opening = 35. * pi / 180.;
   const Vector3d a = Vector3d(-.3, .1, 1.).normalized(), ahead = along(a, Vector3d::UnitX(), stem + .5);
   const Vector3d fork = along(a, ahead, stem), side = a.cross(ahead).normalized();
   const Vector3d forward = side.cross(fork).normalized();
@@ -173,8 +173,8 @@ TEST_CASE("CrackTracker: a crack that branches on a sphere keeps its tips and th
   };
   CrackTracker tracker(sphere(), options);
 
-  // The arms leave the face +z at x = z.
-  for (int step = 0; step * dt * speed < 1.9; ++step)
+  // The arms leave the face +z at x = z, when they are more than 4 l0 long.
+  for (int step = 0; step * dt * speed < 1.7; ++step)
     {
       const double grown = .3 + step * dt * speed;
       Arcs         cracks{{{a, along(a, ahead, std::min(grown, stem))}}};
@@ -213,13 +213,11 @@ TEST_CASE("CrackTracker: a helix on a cylinder has its speed, across interfaces 
     {
       const double length = .6 + speed * step * dt;
       tracker.update(cylinder(), on_cylinder({l0, {{start, start + (hidden + length) * direction}}}), step * dt);
-      INFO("step " << step << ", length " << tracker.length() - length - half_width << " too large, arms "
-                   << tracker.cracks().arms.size() << ", from "
-                   << tracker.cracks().arms.at(0).points.front().transpose() << " to "
-                   << tracker.cracks().arms.at(0).points.back().transpose());
+      INFO("step " << step);
       REQUIRE(tracker.tree().tips().size() == 1);
       CHECK(tracker.tree().n_active() == 1);
-      CHECK(std::abs(tracker.length() - length - half_width) < 4. * sample);
+      // The edge of the body cuts the band obliquely: where it begins there is known to l0, and that does not change.
+      CHECK(std::abs(tracker.length() - length - half_width) < l0);
       CHECK(tracker.tree().tips()[0].length == Approx(tracker.length()).margin(sample));
       if (step > 8)
         {
