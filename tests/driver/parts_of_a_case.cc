@@ -3,6 +3,7 @@
 #include <sherd/base/environment.h>
 #include <sherd/driver/case_model.h>
 #include <sherd/driver/make_surface.h>
+#include <sherd/material/canham.h>
 #include <sherd/material/split/none.h>
 #include <sherd/material/split/surface_stretch.h>
 
