@@ -84,7 +84,8 @@ public:
     };
     const auto refuse = [&](bool given, const std::string &name) {
       if (given)
-        throw InvalidParameter(where + ": kind = " + region.kind + " has no " + name + ", which is given; leave it out");
+        throw InvalidParameter(where + ": kind = " + region.kind + " has no " + name +
+                               ", which is given; leave it out");
     };
     if (is_box_)
       {
@@ -93,7 +94,8 @@ public:
         lower_ = vector(region.lower, "lower");
         upper_ = vector(region.upper, "upper");
         if (!(lower_.array() < upper_.array()).all())
-          throw InvalidParameter(where + ": the lower corner of the box is not below the upper one in every coordinate");
+          throw InvalidParameter(where +
+                                 ": the lower corner of the box is not below the upper one in every coordinate");
         return;
       }
     refuse(!region.lower.empty(), "lower");
@@ -183,7 +185,7 @@ StiffnessField<spacedim> make_stiffness(const Case &prm)
 template <int degree, int spacedim>
 PreCrack<spacedim> make_cracks(const Case &prm, const Surface<degree, spacedim> &surface)
 {
-  constexpr int                     pieces = 64; // of each straight one
+  constexpr int                   pieces = 64; // of each straight one
   std::vector<Polyline<spacedim>> cracks;
   for (std::size_t i = 0; i < prm.cracks.size(); ++i)
     {
@@ -192,8 +194,8 @@ PreCrack<spacedim> make_cracks(const Case &prm, const Surface<degree, spacedim> 
       for (const auto &point : prm.cracks[i].points)
         {
           if (point.size() != spacedim)
-            throw InvalidParameter(where + ": a point has " + std::to_string(point.size()) +
-                                   " coordinates, expected " + std::to_string(spacedim));
+            throw InvalidParameter(where + ": a point has " + std::to_string(point.size()) + " coordinates, expected " +
+                                   std::to_string(spacedim));
           corners.emplace_back(Eigen::Map<const Point<spacedim>>(point.data()));
         }
       if (prm.cracks[i].on_surface && corners.size() > 1)
