@@ -71,7 +71,7 @@ struct Parameters
     std::vector<std::string> names;
     for (const auto &scheme : schemes())
       names.push_back(scheme.name);
-    section.choice("problem", problem, {"oscillator", "shell", "plate"}, "what is computed");
+    section.choice("problem", problem, std::vector<std::string>{"oscillator", "shell", "plate"}, "what is computed");
     section.choice("scheme", scheme, names, "implicit integrator; nothing to method: explicit");
     section.choice("method", method, methods(), "how the system of a step is solved");
     section.subsection("plate", plate, "the branching plate");

@@ -158,7 +158,7 @@ TEST_CASE("CrackTracker: an X on a sphere has four arms, across interfaces too",
   CHECK(tracker.cracks().arms.size() == 4);
   CHECK(std::abs(tracker.length() - 3.2 - 4. * half_width) < 6. * sample);
   for (const double degrees : {10., 80., 190., 260.})
-    CHECK(distance_to_tip(tracker, end(degrees, .8 + half_width)) < 2. * sample);
+    CHECK(distance_to_tip(tracker, end(degrees, .8 + half_width)) < 3. * sample);
 }
 
 TEST_CASE("CrackTracker: a crack that branches on a sphere keeps its tips and their tree across interfaces",
@@ -213,7 +213,10 @@ TEST_CASE("CrackTracker: a helix on a cylinder has its speed, across interfaces 
     {
       const double length = .6 + speed * step * dt;
       tracker.update(cylinder(), on_cylinder({l0, {{start, start + (hidden + length) * direction}}}), step * dt);
-      INFO("step " << step);
+      INFO("step " << step << ", length " << tracker.length() - length - half_width << " too large, arms "
+                   << tracker.cracks().arms.size() << ", from "
+                   << tracker.cracks().arms.at(0).points.front().transpose() << " to "
+                   << tracker.cracks().arms.at(0).points.back().transpose());
       REQUIRE(tracker.tree().tips().size() == 1);
       CHECK(tracker.tree().n_active() == 1);
       CHECK(std::abs(tracker.length() - length - half_width) < 4. * sample);

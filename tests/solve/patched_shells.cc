@@ -1,6 +1,7 @@
 // label: verification
 #include <catch2/catch.hpp>
 
+#include <sherd/geometry/shapes/polygon.h>
 #include <sherd/geometry/split.h>
 
 #include "linear_benchmarks.h"
@@ -87,4 +88,42 @@ TEST_CASE("Patches of a hemisphere converge to one patch")
   const auto shell = [](auto degree) { return [](int n) { return hemisphere<degree()>(n, 18.); }; };
   check_patches<2>(shell(std::integral_constant<int, 2>()), 8);
   check_patches<3>(shell(std::integral_constant<int, 3>()), 8);
+}
+
+namespace
+{
+
+/// Deflection of the middle of a clamped regular pentagon, of five patches that meet there, over that of fine cubic
+/// elements with multipliers.
+template <int degree>
+double pentagon(int n, const Continuity &continuity)
+{
+  constexpr double exact = 1.;
+  Supports         supports;
+  supports.fix(WholeSurface{}, Component::x);
+  supports.fix(WholeSurface{}, Component::y);
+  supports.clamp_weakly("outer");
+  Loads<3> loads;
+  loads.surface_load([](const Point<3> &, double t) { return Point<3>(0., 0., t); });
+  KoiterBody<degree> body(12. * (1. - .3 * .3), .3, 1., shapes::polygon<degree>(1., 5, n), supports, loads, {},
+                          continuity);
+  return body.displacement(body.solver.solve_linear(body.state, 1.), 0., 0.)[2] / exact;
+}
+
+} // namespace
+
+// Where patches meet askew, quadratic functions that are smooth across all interfaces have little freedom left around
+// the corner. theory G.3
+TEST_CASE("Five patches around a corner lock with quadratic elements and too large a factor")
+{
+  for (const int n : {4, 8, 16})
+    for (const double beta : {1e2, 1e3, 1e4, 1e5})
+      UNSCOPED_INFO("degree 2, n = " << n << ", beta = " << beta << ": "
+                                     << pentagon<2>(n, continuity::Penalty{beta, 0.}));
+  for (const int n : {4, 8, 16})
+    UNSCOPED_INFO("degree 2, n = " << n << ", multiplier: " << pentagon<2>(n, continuity::LagrangeMultiplier()));
+  for (const int n : {4, 8, 16})
+    UNSCOPED_INFO("degree 3, n = " << n << ": " << pentagon<3>(n, continuity::Penalty()) << ", multiplier "
+                                   << pentagon<3>(n, continuity::LagrangeMultiplier()));
+  CHECK(pentagon<2>(4, continuity::Penalty{1e5, 0.}) < .01);
 }

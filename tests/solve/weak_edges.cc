@@ -160,9 +160,11 @@ TEST_CASE("Weak edges: an edge that turns does the work that the strip takes up"
       INFO(result.failure);
       REQUIRE(result.state);
       state = std::move(*result.state);
-      books.add({.energies      = solver.energies(state),
-                 .external_work = result.external_work,
-                 .withheld_work = result.withheld_work});
+      StepSummary summary;
+      summary.energies      = solver.energies(state);
+      summary.external_work = result.external_work;
+      summary.withheld_work = result.withheld_work;
+      books.add(summary);
     }
   const auto energies = solver.energies(state);
   CAPTURE(books.external_work(), energies.elastic(), energies.kinetic, energies.constraint, books.balance());

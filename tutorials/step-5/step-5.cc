@@ -50,14 +50,24 @@ struct Parameters
   }
 };
 
-const std::vector<std::pair<std::string, crack_density::Any>> densities{{"fourth_order", crack_density::FourthOrder()},
-                                                                        {"second_order", crack_density::SecondOrder()},
-                                                                        {"at1", crack_density::AT1()}};
+struct NamedDensity
+{
+  std::string        name;
+  crack_density::Any density;
+};
+const std::vector<NamedDensity> densities{{"fourth_order", {crack_density::FourthOrder()}},
+                                          {"second_order", {crack_density::SecondOrder()}},
+                                          {"at1", {crack_density::AT1()}}};
 
-const std::vector<std::pair<std::string, degradation::Any>> degradations{{"quadratic", degradation::Quadratic()},
-                                                                         {"cubic", degradation::Cubic(1e-4)},
-                                                                         {"quartic", degradation::Quartic()},
-                                                                         {"rational", degradation::Rational(2., -.5)}};
+struct NamedDegradation
+{
+  std::string      name;
+  degradation::Any g;
+};
+const std::vector<NamedDegradation> degradations{{"quadratic", {degradation::Quadratic()}},
+                                                 {"cubic", {degradation::Cubic(1e-4)}},
+                                                 {"quartic", {degradation::Quartic()}},
+                                                 {"rational", {degradation::Rational(2., -.5)}}};
 
 // A strip with a crack across it, in units of l0 and Gc. With Psi+ = 0 the energy is that of the crack alone,
 //

@@ -241,7 +241,9 @@ void break_plate(const Environment &env, const Parameters &prm)
                                       .end_time = prm.end,
                                       .frames   = prm.frames,
                                       .points   = {},
-                                      .edges    = {"top", "bottom"}};
+                                      .edges    = {"top", "bottom"},
+                                      .times    = {},
+                                      .loads    = {}};
   RecordedRun run(env, directory, blank, checkpoint, recording, prm.checkpoint, solver, space, state, controller);
   while (state.time < prm.end)
     run.step([&] { return adaptivity.advance(solver, plate, space, state, controller, prm.end); });

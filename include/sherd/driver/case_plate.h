@@ -1,15 +1,13 @@
 #pragma once
 
-#include <sherd/driver/case_model.h>
-#include <sherd/solve/monolithic_solver.h>
-#include <sherd/time/any_integrator.h>
+#include <sherd/driver/case_kernel.h>
 
-/// The plate of case files, compiled in the library: a program that takes its policies by name and has a loop of its own
-/// compiles in seconds.
+/// The plate of case files with quadratic splines, which the library has compiled: a program that takes its policies by
+/// name and has a loop of its own compiles in seconds.
 namespace sherd
 {
 
-extern template class Assembler<CaseModel<2, 2>>;
-extern template class MonolithicSolver<CaseModel<2, 2>, AnyIntegrator>;
+SHERD_CASE_ASSEMBLER(extern, 2, 2)
+SHERD_CASE_SOLVERS(extern, 2, 2)
 
 } // namespace sherd
