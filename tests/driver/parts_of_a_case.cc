@@ -123,7 +123,7 @@ TEST_CASE("Regions multiply toughness and stiffness inside, with a ramp")
 TEST_CASE("A crack on a sphere follows the great circle between its ends")
 {
   const Environment env(MPI_COMM_SELF);
-  const auto        prm    = resolved(shell + "cracks: [{points: [[0.1, 0, 1], [0, 0.8, 0.6]], on_surface: true}]\n");
+  const auto        prm    = resolved(shell + "cracks: [{points: [[0.6, 0, 0.8], [0, 0.8, 0.6]], on_surface: true}]\n");
   auto              sphere = prm.surface;
   sphere.shape             = "sphere";
   const auto cracks        = make_cracks(prm, make_surface<2, 3>(env, sphere));
