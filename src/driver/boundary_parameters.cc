@@ -64,7 +64,8 @@ void SupportParameters::add_to(Supports &supports, int dimension, const std::str
   if (moves && !prescribes)
     throw InvalidParameter(where + " has no displacement, which is given; use prescribe or prescribe_clamped");
   if ((angle.expression() != "0") != (kind == "rotate"))
-    throw InvalidParameter(where + (kind == "rotate" ? " needs an angle" : " has no angle, which is given; leave it out"));
+    throw InvalidParameter(where +
+                           (kind == "rotate" ? " needs an angle" : " has no angle, which is given; leave it out"));
   if (dimension == 2 && (kind == "rotate" || kind == "clamp_weakly" || kind == "symmetry_weakly"))
     throw InvalidParameter(where + " is for shells, but surface.dimension = 2");
   if (on_edges && (edges.empty() || !corner.empty() || patch || everywhere))
@@ -168,9 +169,8 @@ void LoadParameters::add_to(Loads<spacedim> &loads, double density, const std::s
       else if (kind == "surface_load")
         loads.surface_load(field);
       else if (kind == "gravity")
-        loads.surface_load([field, density](const Point<spacedim> &X, double t) -> Point<spacedim> {
-          return density * field(X, t);
-        });
+        loads.surface_load(
+            [field, density](const Point<spacedim> &X, double t) -> Point<spacedim> { return density * field(X, t); });
       else
         {
           check_size("point", point.size());

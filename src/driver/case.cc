@@ -43,8 +43,8 @@ void Case::resolve()
 
 const std::vector<std::string> &model_sections()
 {
-  static const std::vector<std::string> sections{"surface",  "material", "fracture", "regions",
-                                                 "cracks",   "supports", "loads",    "refinement"};
+  static const std::vector<std::string> sections{"surface", "material", "fracture", "regions",
+                                                 "cracks",  "supports", "loads",    "refinement"};
   return sections;
 }
 

@@ -109,8 +109,8 @@ public:
                 << (surface_.n_patches() == 1 ? " patch" : " patches") << ", degree " << degree << ", "
                 << surface_.n_elements() << " elements and " << space_.n_unknowns()
                 << " unknowns before refinement; split " << prm_.material.split << " with " << prm_.material.membrane
-                << (spacedim == 3 ? " and " + prm_.material.bending : "") << "; " << prm_.time.integrator << " up to t = "
-                << prm_.time.end << std::endl;
+                << (spacedim == 3 ? " and " + prm_.material.bending : "") << "; " << prm_.time.integrator
+                << " up to t = " << prm_.time.end << std::endl;
     });
   }
 
@@ -189,7 +189,7 @@ private:
 template <int degree, int spacedim>
 void run_case(const Environment &env, const Case &prm)
 {
-  const OutputDirectory              directory(env);
+  const OutputDirectory          directory(env);
   PreparedCase<degree, spacedim> prepared(env, prm);
   if (env.command_line().check)
     return prepared.check();
