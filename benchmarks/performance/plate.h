@@ -27,7 +27,7 @@ struct Plate
         assembler(model, space, state.distribution),
         matrix(assembler.make_matrix()),
         force(state.distribution, 3),
-        mass_weight(GeneralizedAlpha(.5).stage(2. * l0 / (.6 * 2125.), 2. * l0 / (.6 * 2125.)).mass_weight())
+        mass_weight(GeneralizedAlpha(.5).stages(2. * l0 / (.6 * 2125.), 2. * l0 / (.6 * 2125.)).front().mass_weight())
   {
     const PreCrack<2> notch({Segment<2>{{0., .025}, {.05, .025}}}, l0);
     const auto        X = surface.control_points();

@@ -37,7 +37,7 @@ struct Sheet
         assembler(model, space, state.distribution),
         matrix(assembler.make_matrix()),
         force(state.distribution, 4),
-        mass_weight(GeneralizedAlpha(.5).stage(.02 / n, .02 / n).mass_weight())
+        mass_weight(GeneralizedAlpha(.5).stages(.02 / n, .02 / n).front().mass_weight())
   {
     auto x = state.position.local();
     for (int a = 0; a < state.distribution->n_local(); ++a)

@@ -6,6 +6,7 @@ foreach(room IN LISTS SHERD_ROOMS)
   list(APPEND targets sherd_${room})
 endforeach()
 install(TARGETS ${targets} EXPORT sherdTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS sherd_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(EXPORT sherdTargets NAMESPACE sherd:: DESTINATION ${config_dir})
 install(DIRECTORY include/sherd DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 configure_package_config_file(src/cmake/sherdConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/sherdConfig.cmake

@@ -1,5 +1,8 @@
 #include <sherd/output/checkpoint.h>
 
+#include <sherd/base/instantiate.h>
+#include <sherd/output/checkpoint.templates.h>
+
 namespace sherd
 {
 
@@ -19,5 +22,13 @@ StoredArrays read_checkpoint_arrays(const Environment &env, const std::filesyste
       }
   });
 }
+
+#define SHERD_INSTANTIATE(degree, spacedim)                                                                            \
+  template void write_checkpoint(const std::filesystem::path &, const Checkpoint<degree, spacedim> &);                 \
+  template Checkpoint<degree, spacedim> read_checkpoint(const Environment &, const std::filesystem::path &);           \
+  template std::optional<Checkpoint<degree, spacedim>> restart_checkpoint(const Environment &,                         \
+                                                                          const Surface<degree, spacedim> &);
+SHERD_FOR_EACH_SURFACE(SHERD_INSTANTIATE)
+#undef SHERD_INSTANTIATE
 
 } // namespace sherd

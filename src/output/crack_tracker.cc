@@ -1,5 +1,8 @@
 #include <sherd/output/crack_tracker.h>
 
+#include <sherd/base/instantiate.h>
+#include <sherd/output/crack_tracker.templates.h>
+
 namespace sherd
 {
 
@@ -35,14 +38,11 @@ void CrackTracker::join(PatchedCracks cracks, const std::vector<char> &self_join
 {
   const double l0 = options_.length_scale;
   merge_bands(cracks, runs, l0, pruning);
-  cracks_ = std::move(cracks.graph);
-
-  std::vector<Eigen::Vector3d> broken;
-  for (const auto &run : runs)
-    broken.insert(broken.end(), run.points.begin(), run.points.end());
+  cracks_            = std::move(cracks.graph);
+  const auto &broken = pruning.cut_points;
   if (broken.empty())
     return;
-  const auto          crossings = connected_parts(broken, .5 * l0);
+  const auto          crossings = connected_parts({broken.begin(), broken.end()}, .5 * l0);
   std::vector<CutEnd> ends;
   for (const auto &arm : cracks_.arms)
     for (const int node : arm.nodes)
@@ -60,7 +60,13 @@ void CrackTracker::join(PatchedCracks cracks, const std::vector<char> &self_join
           if (crossing >= 0)
             ends.push_back({node, cracks.patch_of_node[node], crossing});
         }
-  join_cracks(cracks_, cracks.patch_of_arm, ends, self_joined, {4. * l0, 2. * l0});
+  join_cracks(cracks_, cracks.patch_of_arm, ends, self_joined, {4. * l0, 2. * l0}, pruning);
 }
+
+#define SHERD_INSTANTIATE(degree, spacedim)                                                                            \
+  template CrackTracker::CrackTracker(const Surface<degree, spacedim> &, const CrackOptions &);                        \
+  template void CrackTracker::update(const Surface<degree, spacedim> &, const Eigen::VectorXd &, double);
+SHERD_FOR_EACH_SURFACE(SHERD_INSTANTIATE)
+#undef SHERD_INSTANTIATE
 
 } // namespace sherd

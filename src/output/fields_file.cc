@@ -1,5 +1,8 @@
 #include <sherd/output/fields_file.h>
 
+#include <sherd/base/instantiate.h>
+#include <sherd/output/fields_file.templates.h>
+
 #include <cstdio>
 #include <functional>
 #include <numeric>
@@ -221,5 +224,10 @@ void FieldsFile::append(const std::vector<PatchArrays> &patches, double time, co
   n_meshes_ = number + 1;
   ++n_frames_;
 }
+
+#define SHERD_INSTANTIATE(degree, spacedim)                                                                            \
+  template void FieldsFile::write(const Surface<degree, spacedim> &, const Snapshot<spacedim> &);
+SHERD_FOR_EACH_SURFACE(SHERD_INSTANTIATE)
+#undef SHERD_INSTANTIATE
 
 } // namespace sherd

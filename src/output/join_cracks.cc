@@ -15,7 +15,10 @@ class Joiner
 {
 public:
   Joiner(CrackGraph &graph, const std::vector<int> &patch_of_arm)
-      : graph_(graph), node_gone_(graph.nodes.size(), 0), arm_gone_(graph.arms.size(), 0)
+      : graph_(graph),
+        node_gone_(graph.nodes.size(), 0),
+        arm_gone_(graph.arms.size(), 0),
+        is_whole_(graph.arms.size(), 1)
   {
     for (const int patch : patch_of_arm)
       patches_.push_back({patch});
@@ -56,20 +59,27 @@ public:
         turn(b, [&](const auto &nodes) { return nodes[0] == j; });
         first.points.insert(first.points.end(), second.points.begin(), second.points.end());
         first.nodes[1] = second.nodes[1];
+        is_whole_[a]   = 0;
         patches_[a].insert(patches_[a].end(), patches_[b].begin(), patches_[b].end());
         arm_gone_[b] = 1;
       }
     measure(first);
   }
 
-  /// Lets the arm of end @p i start from the closest arm that is not of its patch alone, if one is close enough.
-  void branch(int i, int patch, double radius)
+  /// A place on an arm: on the line to its point number `point`, which is not the first.
+  struct Place
   {
-    const int   own           = arm_of(i);
-    int         best_arm      = -1;
-    std::size_t best_point    = 0;
-    double      best_distance = radius;
-    Vector3d    best_X;
+    int         arm   = -1; ///< none
+    std::size_t point = 0;
+    double      distance;
+    Vector3d    X;
+  };
+
+  /// The place within @p radius of end @p i that is closest to it, on another arm that is not of its patch alone.
+  Place closest_elsewhere(int i, int patch, double radius) const
+  {
+    const int own = arm_of(i);
+    Place     best{.distance = radius};
     for (std::size_t a = 0; a < graph_.arms.size(); ++a)
       {
         const bool elsewhere =
@@ -83,13 +93,21 @@ public:
             const double   square = edge.squaredNorm();
             const double   t      = square > 0. ? std::clamp((X(i) - points[k - 1]).dot(edge) / square, 0., 1.) : 0.;
             const Vector3d place  = points[k - 1] + t * edge;
-            if (const double distance = (X(i) - place).norm(); distance < best_distance)
-              std::tie(best_arm, best_point, best_distance, best_X) =
-                  std::tuple(static_cast<int>(a), k, distance, place);
+            if (const double distance = (X(i) - place).norm(); distance < best.distance)
+              best = {static_cast<int>(a), k, distance, place};
           }
       }
-    if (best_arm < 0)
-      return;
+    return best;
+  }
+
+  /// Lets the arm of end @p i start from a place on another.
+  void branch(int i, const Place &place)
+  {
+    const int         own        = arm_of(i);
+    const int         best_arm   = place.arm;
+    const std::size_t best_point = place.point;
+    const Vector3d    best_X     = place.X;
+    is_whole_[own] = is_whole_[best_arm] = 0;
 
     // The end becomes the branch point; the arm it meets is cut there.
     turn(own, [&](const auto &nodes) { return nodes[1] == i; });
@@ -118,6 +136,15 @@ public:
     graph_.arms.push_back(std::move(rest));
     arm_gone_.push_back(0);
     patches_.push_back(patches_[best_arm]);
+    is_whole_.push_back(0);
+  }
+
+  /// Removes side arms that are too short, the shortest first, and contracts short bridges, among those that interfaces
+  /// have cut.
+  void prune(const Pruning &pruning)
+  {
+    while (remove_shortest_side_arm(pruning) || contract_shortest_bridge(pruning))
+      ;
   }
 
   /// Removes what is gone.
@@ -144,6 +171,90 @@ public:
   }
 
 private:
+  int &degree(int node) { return graph_.nodes[node].degree; }
+
+  /// The shortest arm that is there, no loop, and a candidate; -1: none.
+  template <class Candidate>
+  int shortest(const Candidate &candidate)
+  {
+    int best = -1;
+    for (int a = 0; a < static_cast<int>(graph_.arms.size()); ++a)
+      {
+        const auto &arm = graph_.arms[a];
+        if (!arm_gone_[a] && arm.nodes[0] >= 0 && arm.nodes[0] != arm.nodes[1] &&
+            (best < 0 || arm.length < graph_.arms[best].length) && candidate(a, arm))
+          best = a;
+      }
+    return best;
+  }
+
+  bool remove_shortest_side_arm(const Pruning &pruning)
+  {
+    const int a = shortest([&](int b, const CrackGraph::Arm &arm) {
+      const bool first_is_end = degree(arm.nodes[0]) == 1;
+      const int  end = arm.nodes[first_is_end ? 0 : 1], foot = arm.nodes[first_is_end ? 1 : 0];
+      return degree(end) == 1 && degree(foot) > 2 && (!is_whole_[b] || pruning.is_cut(X(end))) &&
+             arm.length < pruning.side_arm_limit(X(foot));
+    });
+    if (a < 0)
+      return false;
+    arm_gone_[a] = 1;
+    for (const int node : graph_.arms[a].nodes)
+      if (--degree(node) == 0)
+        node_gone_[node] = 1;
+      else if (degree(node) == 2)
+        join_arms_of(node);
+    return true;
+  }
+
+  bool contract_shortest_bridge(const Pruning &pruning)
+  {
+    const int a = shortest([&](int b, const CrackGraph::Arm &arm) {
+      return !is_whole_[b] && degree(arm.nodes[0]) > 2 && degree(arm.nodes[1]) > 2 && arm.length < pruning.limit;
+    });
+    if (a < 0)
+      return false;
+    const auto [kept, gone] = graph_.arms[a].nodes;
+    const Vector3d middle   = .5 * (X(kept) + X(gone));
+    arm_gone_[a] = node_gone_[gone] = 1;
+    degree(kept) += degree(gone) - 2;
+    graph_.nodes[kept].point.X = middle;
+    for (auto &arm : graph_.arms)
+      for (int end = 0; end < 2; ++end)
+        if (arm.nodes[end] == kept || arm.nodes[end] == gone)
+          {
+            arm.nodes[end]                                      = kept;
+            (end == 0 ? arm.points.front() : arm.points.back()) = middle;
+            measure(arm);
+          }
+    return true;
+  }
+
+  /// Makes one arm of the two that meet at a node.
+  void join_arms_of(int node)
+  {
+    node_gone_[node] = 1;
+    std::vector<int> arms;
+    for (int a = 0; a < static_cast<int>(graph_.arms.size()); ++a)
+      if (!arm_gone_[a] && (graph_.arms[a].nodes[0] == node || graph_.arms[a].nodes[1] == node))
+        arms.push_back(a);
+    auto &first = graph_.arms[arms[0]];
+    if (arms.size() == 1)
+      {
+        first.nodes = {-1, -1};
+        return;
+      }
+    turn(arms[0], [&](const auto &nodes) { return nodes[1] == node; });
+    turn(arms[1], [&](const auto &nodes) { return nodes[0] == node; });
+    const auto &second = graph_.arms[arms[1]];
+    first.points.insert(first.points.end(), second.points.begin() + 1, second.points.end());
+    first.nodes[1] = second.nodes[1];
+    patches_[arms[0]].insert(patches_[arms[0]].end(), patches_[arms[1]].begin(), patches_[arms[1]].end());
+    is_whole_[arms[0]] = 0;
+    arm_gone_[arms[1]] = 1;
+    measure(first);
+  }
+
   /// Turns an arm around unless its nodes are as wanted.
   template <class Wanted>
   void turn(int a, const Wanted &wanted)
@@ -181,8 +292,8 @@ private:
   }
 
   CrackGraph                   &graph_;
-  std::vector<std::vector<int>> patches_; ///< of each arm
-  std::vector<char>             node_gone_, arm_gone_;
+  std::vector<std::vector<int>> patches_;                         ///< of each arm
+  std::vector<char>             node_gone_, arm_gone_, is_whole_; ///< no interface has cut the arm
 };
 
 } // namespace
@@ -209,7 +320,7 @@ std::vector<int> connected_parts(const std::vector<Eigen::Vector3d> &points, dou
 }
 
 void join_cracks(CrackGraph &graph, const std::vector<int> &patch_of_arm, const std::vector<CutEnd> &ends,
-                 const std::vector<char> &self_joined, const JoinDistances &distances)
+                 const std::vector<char> &self_joined, const JoinDistances &distances, const Pruning &pruning)
 {
   Joiner joiner(graph, patch_of_arm);
   struct Pair
@@ -234,6 +345,9 @@ void join_cracks(CrackGraph &graph, const std::vector<int> &patch_of_arm, const 
     return std::tie(a.same_patch, a.distance, a.first, a.second) <
            std::tie(b.same_patch, b.distance, b.first, b.second);
   });
+  std::vector<int> pieces; // the arm of each end, as long as it is alone
+  for (const auto &end : ends)
+    pieces.push_back(joiner.arm_of(end.node));
   std::vector<char> joined(ends.size(), 0);
   for (const auto &pair : pairs)
     if (!joined[pair.first] && !joined[pair.second])
@@ -241,9 +355,27 @@ void join_cracks(CrackGraph &graph, const std::vector<int> &patch_of_arm, const 
         joined[pair.first] = joined[pair.second] = 1;
         joiner.join(ends[pair.first].node, ends[pair.second].node, distances.trim);
       }
+
+  // A piece goes over a crossing once; where it is joined there already, its other end close by is a tip.
+  std::vector<std::pair<double, std::size_t>> left;
   for (std::size_t i = 0; i < ends.size(); ++i)
     if (!joined[i] && ends[i].patch >= 0)
-      joiner.branch(ends[i].node, ends[i].patch, distances.reach);
+      left.emplace_back(joiner.closest_elsewhere(ends[i].node, ends[i].patch, distances.reach).distance, i);
+  std::sort(left.begin(), left.end());
+  for (const auto &[distance, i] : left)
+    {
+      bool goes_over = false;
+      for (std::size_t j = 0; j < ends.size(); ++j)
+        goes_over |= joined[j] && pieces[j] == pieces[i] && ends[j].crossing == ends[i].crossing;
+      if (goes_over)
+        continue;
+      if (const auto place = joiner.closest_elsewhere(ends[i].node, ends[i].patch, distances.reach); place.arm >= 0)
+        {
+          joined[i] = 1;
+          joiner.branch(ends[i].node, place);
+        }
+    }
+  joiner.prune(pruning);
   joiner.finish();
 }
 

@@ -111,12 +111,10 @@ private:
 
   double limit(const RawCracks::Arm &arm) const
   {
-    const int   foot = degree(arm.nodes[0]) > 2 ? arm.nodes[0] : arm.nodes[1];
-    const auto &X    = cracks_.nodes[foot].point.X;
-    for (const auto &known : pruning_.known_branch_points)
-      if ((known - X).norm() < pruning_.known_radius)
-        return pruning_.known_limit;
-    return pruning_.limit;
+    const bool first_is_foot = degree(arm.nodes[0]) > 2;
+    const int  foot          = arm.nodes[first_is_foot ? 0 : 1];
+    const auto end           = cracks_.nodes[arm.other(foot)].point.X;
+    return pruning_.is_cut(end) ? pruning_.known_limit : pruning_.side_arm_limit(cracks_.nodes[foot].point.X);
   }
 
   template <class Candidate>

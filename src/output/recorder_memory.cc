@@ -15,6 +15,15 @@ void exchange(Archive archive, Energies &energies)
   archive("kinetic", energies.kinetic);
   archive("fracture", energies.fracture);
   archive("constraint", energies.constraint);
+  archive("bending", energies.bending);
+  archive("diffuse_length", energies.diffuse_length);
+}
+
+template <class Archive>
+void exchange(Archive archive, ExternalWork &work)
+{
+  archive("supports", work.supports);
+  archive("loads", work.loads);
 }
 
 template <class Archive>
@@ -22,8 +31,11 @@ void exchange(Archive archive, EnergyBalance::State &balance)
 {
   archive("initial", balance.initial);
   exchange(archive.in("now"), balance.now);
-  archive("work", balance.work);
+  exchange(archive.in("work"), balance.work);
   archive("irreversible", balance.irreversible);
+  archive("dissipation", balance.dissipation);
+  archive("inertial_dissipation", balance.inertial_dissipation);
+  archive("refinement", balance.refinement);
   archive("largest", balance.largest);
 }
 
@@ -65,6 +77,19 @@ void exchange(Archive archive, HistoryRow &row)
   archive("tips", row.tips);
   archive("tip_speed", row.tip_speed);
   archive("wall", row.wall);
+  archive("active", row.active);
+  archive("passive", row.passive);
+  archive("membrane", row.membrane);
+  archive("bending", row.bending);
+  archive("support_work", row.support_work);
+  archive("load_work", row.load_work);
+  archive("dissipation", row.dissipation);
+  archive("inertial_dissipation", row.inertial_dissipation);
+  archive("refinement", row.refinement);
+  archive("diffuse_length", row.diffuse_length);
+  archive("fastest_tip", row.fastest_tip);
+  archive("closure", row.closure);
+  archive("error", row.error);
 }
 
 template <class Archive>

@@ -4,7 +4,5 @@ namespace sherd
 {
 
 template class Assembler<models::Plate>;
-template class MonolithicSolver<models::Plate, GeneralizedAlpha>;
-template class MonolithicSolver<models::Plate, Newmark>;
 
 } // namespace sherd

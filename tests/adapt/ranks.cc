@@ -31,7 +31,7 @@ Run run(MPI_Comm comm, const Partitioner &partitioner)
     result.fracture.push_back(s.energies.fracture);
     result.elastic.push_back(s.energies.elastic());
     result.kinetic.push_back(s.energies.kinetic);
-    result.work.push_back(s.external_work);
+    result.work.push_back(s.work.external.total());
     result.newton.push_back(s.newton);
     result.rejected.push_back(s.rejected);
     result.repeated.push_back(s.repeated);

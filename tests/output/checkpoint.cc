@@ -67,7 +67,14 @@ GlobalState<degree, spacedim> random_state(const Surface<degree, spacedim> &surf
 RecorderMemory some_memory()
 {
   RecorderMemory memory;
-  memory.balance              = {0.1, {.active = 1. / 3., .passive = 2., .kinetic = 3., .fracture = 4.}, 5., 6., 7.};
+  memory.balance              = {0.1,
+                                 {.active = 1. / 3., .passive = 2., .kinetic = 3., .fracture = 4., .bending = .5},
+                                 {5., {5.25, 5.5}},
+                                 6.,
+                                 6.25,
+                                 6.5,
+                                 6.75,
+                                 7.};
   memory.energies             = {.active = 8., .passive = 9., .kinetic = 10., .fracture = 1. / 7.};
   memory.totals               = {.steps = 1, .attempts = 2, .rejected = 3, .repeated = 4, .switched = 5, .refined = 6};
   memory.totals.newton        = 7;
@@ -167,17 +174,13 @@ void replace(const fs::path &file, const std::string &bytes)
   on_root(MPI_COMM_WORLD, [&] { std::ofstream(file, std::ios::binary) << bytes; });
 }
 
-/// What CheckpointWriter needs of a solver and of a recorder.
+/// What CheckpointWriter needs of a solver.
 struct FakeSolver
 {
   PhaseTimers  clock;
   int          n_rebuilt = 0;
   PhaseTimers &timers() { return clock; }
   void         rebuild(const State<2, 2> &) { ++n_rebuilt; }
-};
-struct FakeRecorder
-{
-  RecorderMemory memory(FakeSolver &) const { return some_memory(); }
 };
 
 struct Writing
@@ -200,7 +203,7 @@ struct Writing
   void write(CheckpointWriter &writer, int step)
   {
     state.step = step;
-    writer.write(solver, space, state, controller, FakeRecorder{});
+    writer.write(solver, space, state, controller, some_memory());
   }
 
   Surface<2, 2>    plate = refined_plate();
@@ -253,7 +256,8 @@ TEMPLATE_TEST_CASE_SIG("A checkpoint is read as it was written, bit by bit, in t
   check_same(found.surface, wanted.surface);
   check_same(found.state, wanted.state);
   CHECK(found.parameters == wanted.parameters);
-  check_bits({found.controller.step, found.controller.largest}, {wanted.controller.step, wanted.controller.largest});
+  check_bits({found.controller.step, found.controller.largest, found.controller.previous_error},
+             {wanted.controller.step, wanted.controller.largest, wanted.controller.previous_error});
 }
 
 TEST_CASE("A checkpoint is read as it was written, bit by bit, in space", "[output][checkpoint]")
@@ -287,7 +291,13 @@ TEST_CASE("The memory of a recorder comes back, tips and their ways included", "
       CHECK(again.find(name).values == array.values);
     }
   CHECK(found.balance.now.active == wanted.balance.now.active);
+  CHECK(found.balance.now.bending == wanted.balance.now.bending);
+  CHECK(found.balance.work.supports == 5.);
+  CHECK(found.balance.work.loads == std::vector{5.25, 5.5});
   CHECK(found.balance.irreversible == wanted.balance.irreversible);
+  CHECK(found.balance.dissipation == wanted.balance.dissipation);
+  CHECK(found.balance.inertial_dissipation == wanted.balance.inertial_dissipation);
+  CHECK(found.balance.refinement == wanted.balance.refinement);
   CHECK(found.totals.linear == wanted.totals.linear);
   CHECK(found.last.dofs == wanted.last.dofs);
   CHECK(found.last.tip_speed == wanted.last.tip_speed);

@@ -65,6 +65,9 @@ TEST_CASE("History: has its columns once and in order", "[output][csv]")
   row.time = 1. / 3.;
   row.dofs = 123456;
   row.wall = 2.5;
+
+  row.dissipation = 0.25;
+  row.fastest_tip = -1;
   {
     History history(folder.path());
     history.append(row);
@@ -73,11 +76,13 @@ TEST_CASE("History: has its columns once and in order", "[output][csv]")
   row.time = 0.5;
   History::resume(folder.path(), 0.4).append(row);
 
-  CHECK(test::content(folder.path() / "history.csv") ==
-        "step,time,dt,newton,linear,rejected,switched,elements,dofs,min_h,max_phi,elastic,kinetic,fracture,"
-        "external_work,constraint,irreversible,balance,crack_length,tips,tip_speed,wall\n"
-        "7,0.3333333333333333,0,0,0,0,0,0,123456,0,0,0,0,0,0,0,0,0,0,0,0,2.5\n"
-        "8,0.5,0,0,0,0,0,0,123456,0,0,0,0,0,0,0,0,0,0,0,0,2.5\n");
+  CHECK(
+      test::content(folder.path() / "history.csv") ==
+      "step,time,dt,newton,linear,rejected,switched,elements,dofs,min_h,max_phi,elastic,kinetic,fracture,"
+      "external_work,constraint,irreversible,balance,crack_length,tips,tip_speed,wall,active,passive,membrane,bending,"
+      "support_work,load_work,dissipation,inertial_dissipation,refinement,closure,diffuse_length,fastest_tip,error\n"
+      "7,0.3333333333333333,0,0,0,0,0,0,123456,0,0,0,0,0,0,0,0,0,0,0,0,2.5,0,0,0,0,0,0,0.25,0,0,0,0,-1,0\n"
+      "8,0.5,0,0,0,0,0,0,123456,0,0,0,0,0,0,0,0,0,0,0,0,2.5,0,0,0,0,0,0,0.25,0,0,0,0,-1,0\n");
 }
 
 TEST_CASE("TipsTable: has a row for each active tip", "[output][csv][crack]")

@@ -37,17 +37,17 @@ struct Units
 };
 
 /// Everything that a solver refers to, in one place that does not move.
-template <class Model, class Integrator = GeneralizedAlpha>
+template <class Model, class Integrator = GeneralizedAlpha, class Solver = MonolithicSolver<Model, Integrator>>
 struct Body
 {
-  Environment                         env{MPI_COMM_WORLD};
-  Model                               model;
-  Surface<2, 2>                       surface;
-  ShellSpace<2, 2>                    space;
-  Supports                            supports;
-  Loads<2>                            loads;
-  State<2, 2>                         state;
-  MonolithicSolver<Model, Integrator> solver;
+  Environment      env{MPI_COMM_WORLD};
+  Model            model;
+  Surface<2, 2>    surface;
+  ShellSpace<2, 2> space;
+  Supports         supports;
+  Loads<2>         loads;
+  State<2, 2>      state;
+  Solver           solver;
 
   Body(const Model &model_, const std::array<double, 2> &size, const std::array<int, 2> &elements,
        const NewtonSettings &settings = {}, const Supports &supports_ = {}, const Loads<2> &loads_ = {},

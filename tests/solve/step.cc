@@ -162,7 +162,7 @@ TEST_CASE("A prescribed displacement is imposed and its work closes the balance 
 
   double work = 0.;
   for (int i = 0; i < 20; ++i)
-    work += take(body, i % 2 == 0 ? 1.5e-3 : .5e-3).external_work;
+    work += take(body, i % 2 == 0 ? 1.5e-3 : .5e-3).work.external.total();
   CHECK(body.state.time == Approx(.02));
   CHECK(body.state.step == 20);
   CHECK(body.state.step_size == .5e-3);

@@ -1,155 +1,189 @@
-// label: verification
 #include <catch2/catch.hpp>
 
-#include <algorithm>
+#include <cmath>
 #include <limits>
 
-#include <Eigen/Dense>
-
+#include <sherd/time/any_integrator.h>
+#include <sherd/time/backward_euler.h>
+#include <sherd/time/bathe.h>
+#include <sherd/time/central_difference.h>
 #include <sherd/time/generalized_alpha.h>
+#include <sherd/time/hht.h>
+#include <sherd/time/implicit_midpoint.h>
 #include <sherd/time/newmark.h>
-
-#include "one_point.h"
+#include <sherd/time/quasi_static.h>
+#include <sherd/time/update.h>
+#include <sherd/time/wbz.h>
 
 using namespace sherd;
-using namespace sherd::test;
 
 namespace
 {
 
-using Pattern = std::vector<double>;
-
-/// Sizes of the steps of one cycle. The last one is what paper Eq. (13) does: growth by 1.5, a fifth at a refinement.
-const Pattern constant  = {1.};
-const Pattern alternate = {1., 1.5, .5};
-const Pattern sawtooth  = {1., 1.5, 2.25, 3.375, 5.0625, 1.0125};
-
-/// @p n_cycles of the pattern, scaled to end at t = 2.
-Pattern steps(const Pattern &pattern, int n_cycles)
-{
-  double sum = 0.;
-  for (const double s : pattern)
-    sum += s;
-  Pattern sizes;
-  for (int c = 0; c < n_cycles; ++c)
-    for (const double s : pattern)
-      sizes.push_back(2. * s / (sum * n_cycles));
-  return sizes;
-}
-
-/// Error of position, velocity at t = 2 of a damped, forced oscillator, against a fine classical Runge-Kutta solution.
+/// The stage of a scheme that has one.
 template <class Integrator>
-double error(const Integrator &integrator, const Pattern &sizes)
+Stage only_stage(const Integrator &integrator, double dt, double previous_dt)
 {
-  const Oscillator  oscillator{4., .1, 3.};
-  static const auto exact = [&] {
-    double       x = 1., v = -.5, t = 0.;
-    const int    n = 20000;
-    const double h = 2. / n;
-    for (int i = 0; i < n; ++i, t = i * h)
-      {
-        const double k1 = v, l1 = oscillator.force(x, v, t);
-        const double k2 = v + h / 2 * l1, l2 = oscillator.force(x + h / 2 * k1, v + h / 2 * l1, t + h / 2);
-        const double k3 = v + h / 2 * l2, l3 = oscillator.force(x + h / 2 * k2, v + h / 2 * l2, t + h / 2);
-        const double k4 = v + h * l3, l4 = oscillator.force(x + h * k3, v + h * l3, t + h);
-        x += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-        v += h / 6 * (l1 + 2 * l2 + 2 * l3 + l4);
-      }
-    return std::pair(x, v);
-  }();
-  const auto end = oscillator.run(integrator, sizes, 1., -.5);
-  return std::hypot(end.position.local()[0] - exact.first, end.velocity.local()[0] - exact.second);
+  const auto stages = integrator.stages(dt, previous_dt);
+  REQUIRE(stages.size() == 1);
+  return stages.front();
 }
 
-/// Observed order from two resolutions of the same pattern.
-template <class Integrator>
-double order(const Integrator &integrator, const Pattern &pattern, int n_cycles)
+/// The update formulas of Newmark's family.
+void check_weights(const Stage &s)
 {
-  return std::log2(error(integrator, steps(pattern, n_cycles)) / error(integrator, steps(pattern, 2 * n_cycles)));
+  CHECK(s.start.x_of_x == 1.);
+  CHECK(s.start.x_of_v == 1.);
+  CHECK(s.start.x_of_a == .5 - s.beta);
+  CHECK(s.start.v_of_v == 1.);
+  CHECK(s.start.v_of_a == 1. - s.gamma);
+  for (const double w : {s.before.x_of_x, s.before.x_of_v, s.before.x_of_a, s.before.v_of_v, s.before.v_of_a})
+    CHECK(w == 0.);
 }
 
-/// Amplification of (x, v dt, a dt^2) of the undamped oscillator in one step: three runs from the unit vectors.
-Eigen::Matrix3d amplification(const Stage &stage, double omega2)
+struct Row
+{
+  double parameter, alpha_m, alpha_f, gamma, beta;
+};
+
+void check_constants(const Stage &s, const Row &row)
+{
+  CHECK(s.dt == .3);
+  CHECK(s.alpha_m == Approx(row.alpha_m).epsilon(1e-14));
+  CHECK(s.alpha_f == Approx(row.alpha_f).epsilon(1e-14));
+  CHECK(s.gamma == Approx(row.gamma).epsilon(1e-14));
+  CHECK(s.beta == Approx(row.beta).epsilon(1e-14));
+  CHECK(s.mass_weight() == Approx(row.alpha_m / (row.alpha_f * row.beta * .09)).epsilon(1e-14));
+  check_weights(s);
+}
+
+/// A motion of four values, all different.
+Motion some_motion(double shift)
 {
   const auto d =
-      std::make_shared<const Distribution>(MPI_COMM_SELF, std::vector<std::int64_t>{0}, std::vector<std::int64_t>{});
-  Eigen::Matrix3d A;
-  const double    scale[3] = {1., stage.dt, stage.dt * stage.dt};
-  for (int k = 0; k < 3; ++k)
+      std::make_shared<const Distribution>(MPI_COMM_SELF, std::vector<std::int64_t>{0, 1}, std::vector<std::int64_t>{});
+  Motion m{Vector(d, 2), Vector(d, 2), Vector(d, 2)};
+  for (int i = 0; i < 4; ++i)
     {
-      Motion  old{Vector(d, 1), Vector(d, 1), Vector(d, 1)};
-      Vector *unit[3]        = {&old.position, &old.velocity, &old.acceleration};
-      unit[k]->local()[0]    = 1. / scale[k];
-      const auto   next      = Oscillator{omega2}.step(stage, old, 0.);
-      const double values[3] = {next.position.local()[0], next.velocity.local()[0], next.acceleration.local()[0]};
-      for (int i = 0; i < 3; ++i)
-        A(i, k) = values[i] * scale[i];
+      m.position.local()[i]     = 1. + i + .1 * shift;
+      m.velocity.local()[i]     = -.3 * i + .1 - shift;
+      m.acceleration.local()[i] = .7 * i * i - 1. + .5 * shift;
     }
-  return A;
-}
-
-double spectral_radius(const Eigen::Matrix3d &A)
-{
-  return A.eigenvalues().cwiseAbs().maxCoeff();
+  return m;
 }
 
 } // namespace
 
 TEST_CASE("Constants of generalized-alpha are those of its table")
 {
-  struct Row
-  {
-    double rho, alpha_m, alpha_f, gamma, beta;
-  };
   // theory F: (2 - rho)/(1 + rho), 1/(1 + rho), 1/2 + alpha_m - alpha_f, (1 + alpha_m - alpha_f)^2 / 4
-  const auto row   = GENERATE(Row{0., 2., 1., 1.5, 1.}, Row{.5, 1., 2. / 3., 5. / 6., 4. / 9.},
-                              Row{.8, 2. / 3., 5. / 9., 11. / 18., 25. / 81.}, Row{1., .5, .5, .5, .25});
-  const auto check = [&](const Stage &s) {
-    CHECK(s.dt == .3);
-    CHECK(s.alpha_m == Approx(row.alpha_m).epsilon(1e-14));
-    CHECK(s.alpha_f == Approx(row.alpha_f).epsilon(1e-14));
-    CHECK(s.gamma == Approx(row.gamma).epsilon(1e-14));
-    CHECK(s.beta == Approx(row.beta).epsilon(1e-14));
-    CHECK(s.mass_weight() == Approx(row.alpha_m / (row.alpha_f * row.beta * .09)).epsilon(1e-14));
-  };
-  check(PlainGeneralizedAlpha(row.rho).stage(.3, .3));
-  check(PlainGeneralizedAlpha(row.rho).stage(.3, .1));
-  check(GeneralizedAlpha(row.rho).stage(.3, .3));
+  const auto row = GENERATE(Row{0., 2., 1., 1.5, 1.}, Row{.5, 1., 2. / 3., 5. / 6., 4. / 9.},
+                            Row{.8, 2. / 3., 5. / 9., 11. / 18., 25. / 81.}, Row{1., .5, .5, .5, .25});
+  check_constants(only_stage(PlainGeneralizedAlpha(row.parameter), .3, .3), row);
+  check_constants(only_stage(PlainGeneralizedAlpha(row.parameter), .3, .1), row);
+  check_constants(only_stage(GeneralizedAlpha(row.parameter), .3, .3), row);
 }
 
-TEST_CASE("Constants of generalized-alpha after a change of the step size")
+TEST_CASE("Constants of HHT are those of its table")
+{
+  const auto row =
+      GENERATE(Row{0., 1., 1., .5, .25}, Row{-.1, 1., .9, .6, .3025}, Row{-1. / 3., 1., 2. / 3., 5. / 6., 4. / 9.});
+  check_constants(only_stage(PlainHHT(row.parameter), .3, .3), row);
+  check_constants(only_stage(PlainHHT(row.parameter), .3, .1), row);
+  check_constants(only_stage(HHT(row.parameter), .3, .3), row);
+}
+
+TEST_CASE("Constants of WBZ are those of its table")
+{
+  // alpha_B = (rho - 1)/(rho + 1): 1 - alpha_B, 1, 1/2 - alpha_B, (1 - alpha_B)^2 / 4
+  const auto row = GENERATE(Row{0., 2., 1., 1.5, 1.}, Row{.5, 4. / 3., 1., 5. / 6., 4. / 9.}, Row{1., 1., 1., .5, .25});
+  check_constants(only_stage(PlainWBZ(row.parameter), .3, .3), row);
+  check_constants(only_stage(PlainWBZ(row.parameter), .3, .1), row);
+  check_constants(only_stage(WBZ(row.parameter), .3, .3), row);
+}
+
+TEST_CASE("Constants of the family after a change of the step size")
 {
   // rho = 1/2: delta = -1/3; sigma = 2: D = 5/6, delta/sigma = -1/6.
-  const Stage s = GeneralizedAlpha(.5).stage(.2, .1);
+  const Stage s = only_stage(GeneralizedAlpha(.5), .2, .1);
   CHECK(s.alpha_f == Approx(2. / 3.));
   CHECK(s.alpha_m == Approx(1.));
   CHECK(s.gamma == Approx(.8));
   CHECK(s.beta == Approx(.4225));
+  check_weights(s);
 
   // rho = 0: delta = -1; sigma = 1/5: D = 5, delta/sigma = -5.
-  const Stage t = GeneralizedAlpha(0.).stage(.02, .1);
+  const Stage t = only_stage(GeneralizedAlpha(0.), .02, .1);
   CHECK(t.alpha_f == Approx(1.));
   CHECK(t.alpha_m == Approx(1.2));
   CHECK(t.gamma == Approx(1.1));
   CHECK(t.beta == Approx(.64));
 
+  // HHT, alpha = -1/4: delta = alpha; sigma = 2: D = 7/8, delta/sigma = -1/8.
+  const Stage h = only_stage(HHT(-.25), .2, .1);
+  CHECK(h.alpha_f == Approx(.75));
+  CHECK(h.alpha_m == Approx(1.));
+  CHECK(h.gamma == Approx(5. / 7.));
+
+  // WBZ, rho = 1/2: delta = -1/3 again, alpha_f = 1.
+  const Stage w = only_stage(WBZ(.5), .2, .1);
+  CHECK(w.alpha_f == Approx(1.));
+  CHECK(w.alpha_m == Approx(1.4));
+  CHECK(w.gamma == Approx(.8));
+
   // rho = 1 does not depend on the past.
-  const Stage u = GeneralizedAlpha(1.).stage(.02, .1);
-  CHECK(u.alpha_m == Approx(.5));
-  CHECK(u.gamma == Approx(.5));
-  CHECK(u.beta == Approx(.25));
+  for (const Stage &u : {only_stage(GeneralizedAlpha(1.), .02, .1), only_stage(ImplicitMidpoint(), .02, .1)})
+    {
+      CHECK(u.alpha_m == Approx(.5));
+      CHECK(u.alpha_f == Approx(.5));
+      CHECK(u.gamma == Approx(.5));
+      CHECK(u.beta == Approx(.25));
+    }
 }
 
 TEST_CASE("Newmark's scheme is generalized-alpha without shifted levels")
 {
-  const Stage s = Newmark(.3025, .6).stage(.5, .1);
+  const Stage s = only_stage(Newmark(.3025, .6), .5, .1);
   CHECK(s.dt == .5);
   CHECK(s.alpha_m == 1.);
   CHECK(s.alpha_f == 1.);
   CHECK(s.gamma == .6);
   CHECK(s.beta == .3025);
-  CHECK(Newmark().stage(1., 1.).beta == .25);
-  CHECK(Newmark().stage(1., 1.).gamma == .5);
+  check_weights(s);
+  CHECK(only_stage(Newmark(), 1., 1.).beta == .25);
+  CHECK(only_stage(Newmark(), 1., 1.).gamma == .5);
+}
+
+TEST_CASE("Both stages of Bathe's scheme have the same weight of the mass at its default split")
+{
+  const auto stages = Bathe().stages(.3, .1);
+  REQUIRE(stages.size() == 2);
+  CHECK(stages[0].dt == Approx((2. - std::sqrt(2.)) * .3).epsilon(1e-15));
+  CHECK(stages[1].dt == .3);
+  CHECK(stages[0].mass_weight() == Approx(stages[1].mass_weight()).epsilon(1e-14));
+}
+
+TEST_CASE("An integrator chosen at run time has the stages of the one it was made from")
+{
+  const auto same = [](const Stages &a, const Stages &b) {
+    REQUIRE(a.size() == b.size());
+    for (std::size_t k = 0; k < a.size(); ++k)
+      {
+        CHECK(a[k].dt == b[k].dt);
+        CHECK(a[k].alpha_m == b[k].alpha_m);
+        CHECK(a[k].alpha_f == b[k].alpha_f);
+        CHECK(a[k].gamma == b[k].gamma);
+        CHECK(a[k].beta == b[k].beta);
+        CHECK(a[k].before.x_of_x == b[k].before.x_of_x);
+      }
+  };
+  AnyIntegrator any = GeneralizedAlpha(.3);
+  same(any.stages(.2, .1), GeneralizedAlpha(.3).stages(.2, .1));
+  any = Bathe(.5);
+  same(any.stages(.2, .1), Bathe(.5).stages(.2, .1));
+  const AnyIntegrator copy = any;
+  same(copy.stages(.2, .1), any.stages(.2, .1));
+  STATIC_REQUIRE(!std::is_constructible_v<AnyIntegrator, CentralDifference>);
 }
 
 TEST_CASE("Integrators refuse parameters without a stable scheme")
@@ -159,141 +193,63 @@ TEST_CASE("Integrators refuse parameters without a stable scheme")
     {
       CHECK_THROWS_AS(GeneralizedAlpha(rho), InvalidParameter);
       CHECK_THROWS_AS(PlainGeneralizedAlpha(rho), InvalidParameter);
+      CHECK_THROWS_AS(WBZ(rho), InvalidParameter);
+      CHECK_THROWS_AS(PlainWBZ(rho), InvalidParameter);
     }
+  for (const double alpha : {1e-12, -.34, -1., nan})
+    {
+      CHECK_THROWS_AS(HHT(alpha), InvalidParameter);
+      CHECK_THROWS_AS(PlainHHT(alpha), InvalidParameter);
+    }
+  for (const double split : {0., 1., -1., nan})
+    CHECK_THROWS_AS(Bathe(split), InvalidParameter);
   CHECK_THROWS_AS(Newmark(.25, .49), InvalidParameter);
   CHECK_THROWS_AS(Newmark(.2, .5), InvalidParameter);
   CHECK_THROWS_AS(Newmark(nan, .5), InvalidParameter);
   CHECK_THROWS_AS(Newmark(.25, nan), InvalidParameter);
   CHECK_THROWS_WITH(GeneralizedAlpha(1.5), Catch::Contains("1.5") && Catch::Contains("[0, 1]"));
+  CHECK_THROWS_WITH(WBZ(1.5), Catch::Contains("WBZ") && Catch::Contains("[0, 1]"));
+  CHECK_THROWS_WITH(HHT(.1), Catch::Contains("HHT") && Catch::Contains("[-1/3, 0]"));
+  CHECK_THROWS_WITH(Bathe(2.), Catch::Contains("Bathe") && Catch::Contains("(0, 1)"));
 }
 
 TEST_CASE("The predictor keeps the velocity and obeys the update formulas")
 {
-  const auto d =
-      std::make_shared<const Distribution>(MPI_COMM_SELF, std::vector<std::int64_t>{0, 1}, std::vector<std::int64_t>{});
-  Motion old{Vector(d, 2), Vector(d, 2), Vector(d, 2)};
-  for (int i = 0; i < 4; ++i)
+  const auto   stages = GENERATE(GeneralizedAlpha(.3).stages(.2, .5), BackwardEuler().stages(.2, .5),
+                                 Bathe(.4).stages(.2, .5), CentralDifference().stages(.2, .5));
+  const Motion start  = some_motion(0.);
+  Motion       before = start;
+  for (const Stage &stage : stages)
     {
-      old.position.local()[i]     = 1. + i;
-      old.velocity.local()[i]     = -.3 * i + .1;
-      old.acceleration.local()[i] = .7 * i * i - 1.;
-    }
-  const Stage stage     = GeneralizedAlpha(.3).stage(.2, .5);
-  const auto  predicted = predict(stage, old);
-  auto        moved     = predicted;
-  for (int i = 0; i < 4; ++i)
-    move(stage, moved, i, .01 * (i + 1));
-  // Both obey x_{n+1} = x_n + dt v_n + dt^2 [(1/2 - beta) a_n + beta a_{n+1}] and the same for v.
-  for (const Motion *next : {&predicted, static_cast<const Motion *>(&moved)})
-    for (int i = 0; i < 4; ++i)
-      {
-        const double x = old.position.local()[i], v = old.velocity.local()[i], a = old.acceleration.local()[i];
-        const double a1 = next->acceleration.local()[i];
-        CHECK(next->position.local()[i] ==
-              Approx(x + .2 * v + .04 * ((.5 - stage.beta) * a + stage.beta * a1)).margin(1e-13));
-        CHECK(next->velocity.local()[i] == Approx(v + .2 * ((1. - stage.gamma) * a + stage.gamma * a1)).margin(1e-13));
-      }
-  for (int i = 0; i < 4; ++i)
-    CHECK(predicted.velocity.local()[i] == old.velocity.local()[i]);
-}
-
-TEST_CASE("Rates keep their digits however small the step is")
-{
-  // x = 1 has an absolute precision of 1e-16; divided by dt^2 = 1e-20 the difference x_{n+1} - x_n would say nothing.
-  const Oscillator oscillator{.omega2 = 1.};
-  const double     dt  = 1e-10;
-  const auto       end = oscillator.run(GeneralizedAlpha(.5), std::vector<double>(5, dt), 1., .5);
-  CHECK(end.acceleration.local()[0] == Approx(-1.).epsilon(1e-8));
-  CHECK(end.velocity.local()[0] == Approx(.5 - 5. * dt).epsilon(1e-14));
-}
-
-TEST_CASE("Motion under constant acceleration is exact, whatever the steps do")
-{
-  const double rho   = GENERATE(0., .5, 1.);
-  const auto   sizes = steps(sawtooth, 3);
-  const auto   d =
-      std::make_shared<const Distribution>(MPI_COMM_SELF, std::vector<std::int64_t>{0}, std::vector<std::int64_t>{});
-  Motion m{Vector(d, 1), Vector(d, 1), Vector(d, 1)};
-  m.velocity.local()[0]     = -.5;
-  m.acceleration.local()[0] = 1.;
-  double previous = sizes[0], t = 0.;
-  for (const double dt : sizes)
-    {
-      const auto stage = GeneralizedAlpha(rho).stage(dt, previous);
-      Motion     next  = predict(stage, m);
-      // a_{n+1} = 1 balances a constant force; x from the update formula.
-      const double x =
-          m.position.local()[0] + dt * m.velocity.local()[0] + dt * dt * ((.5 - stage.beta) * 1. + stage.beta * 1.);
-      move(stage, next, 0, x - next.position.local()[0]);
-      m = next;
-      t += dt;
-      previous = dt;
-    }
-  CHECK(m.position.local()[0] == Approx(-.5 * t + .5 * t * t).margin(1e-12));
-  CHECK(m.velocity.local()[0] == Approx(-.5 + t).margin(1e-12));
-}
-
-TEST_CASE("Generalized-alpha is of second order under constant and under changing steps")
-{
-  const double rho     = GENERATE(0., .5, .8, 1.);
-  const auto   pattern = GENERATE(constant, alternate, sawtooth);
-  CAPTURE(rho, pattern);
-  const int n = pattern.size() == 1 ? 320 : pattern.size() == 3 ? 100 : 60;
-  CHECK(order(GeneralizedAlpha(rho), pattern, n) == Approx(2.).margin(.05));
-}
-
-TEST_CASE("Constants that ignore the change of the step fall towards first order")
-{
-  const double rho     = GENERATE(0., .5, .8);
-  const auto   pattern = GENERATE(alternate, sawtooth);
-  CAPTURE(rho, pattern);
-  // At rho = 0.8 the first-order part is small and shows on fine steps only.
-  const int n = rho > .7 ? 2000 : 400;
-  CHECK(order(PlainGeneralizedAlpha(rho), pattern, n) < 1.3);
-  CHECK(order(PlainGeneralizedAlpha(rho), constant, 320) == Approx(2.).margin(.05));
-  const auto sizes = steps(pattern, n);
-  CHECK(error(GeneralizedAlpha(rho), sizes) < .2 * error(PlainGeneralizedAlpha(rho), sizes));
-}
-
-TEST_CASE("Newmark: the trapezoidal rule is of second order, damping makes it first")
-{
-  const auto pattern = GENERATE(constant, alternate, sawtooth);
-  CAPTURE(pattern);
-  const int n = pattern.size() == 1 ? 640 : 200;
-  CHECK(order(Newmark(), pattern, n) == Approx(2.).margin(.05));
-  CHECK(order(Newmark(.3025, .6), pattern, 4 * n) == Approx(1.).margin(.1));
-}
-
-TEST_CASE("Spectral radius at high frequency is rho_inf")
-{
-  const double rho = GENERATE(0., .3, .5, .8, 1.);
-  CAPTURE(rho);
-  const Stage stage = GeneralizedAlpha(rho).stage(1., 1.);
-  // Three eigenvalues meet there: the distance falls with the cube root of 1/(omega dt)^2.
-  CHECK(spectral_radius(amplification(stage, 1e12)) == Approx(rho).margin(5e-4));
-  CHECK(spectral_radius(amplification(stage, 1e-6)) == Approx(1.).margin(1e-8));
-}
-
-TEST_CASE("No frequency grows over a cycle of changing steps")
-{
-  const double rho     = GENERATE(0., .5, .8, 1.);
-  const auto   pattern = GENERATE(alternate, sawtooth);
-  CAPTURE(rho, pattern);
-  const auto sizes = steps(pattern, 1);
-  for (double omega2 = 1e-4; omega2 < 1e8; omega2 *= 3.)
-    {
-      Eigen::Matrix3d A        = Eigen::Matrix3d::Identity();
-      double          previous = sizes.back();
-      for (const double dt : sizes)
+      const auto predicted = predict(stage, start, before);
+      auto       moved     = predicted;
+      for (int i = 0; i < 4; ++i)
+        if (stage.beta > 0.)
+          move(stage, moved, i, .01 * (i + 1));
+        else
+          accelerate(stage, moved, i, 3. * i);
+      const auto  &s = stage.start, &b = stage.before;
+      const double dt = stage.dt;
+      CHECK(s.x_of_x + b.x_of_x == Approx(1.).epsilon(1e-15));
+      CHECK(s.v_of_v + b.v_of_v == Approx(1.).epsilon(1e-15));
+      for (int i = 0; i < 4; ++i)
         {
-          // amplification() works in units of its own step; change those of (v, a) at every change of the step.
-          Eigen::Matrix3d units = Eigen::Matrix3d::Identity();
-          units(1, 1)           = dt / previous;
-          units(2, 2)           = units(1, 1) * units(1, 1);
-          A                     = amplification(GeneralizedAlpha(rho).stage(dt, previous), omega2) * units * A;
-          previous              = dt;
+          const auto known = [i](const Motion &m) {
+            return std::array{m.position.local()[i], m.velocity.local()[i], m.acceleration.local()[i]};
+          };
+          const auto [x0, v0, a0] = known(start);
+          const auto [x1, v1, a1] = known(before);
+          const double X          = s.x_of_x * x0 + b.x_of_x * x1 + dt * (s.x_of_v * v0 + b.x_of_v * v1) +
+                           dt * dt * (s.x_of_a * a0 + b.x_of_a * a1);
+          const double V = s.v_of_v * v0 + b.v_of_v * v1 + dt * (s.v_of_a * a0 + b.v_of_a * a1);
+          for (const Motion *next : {&predicted, static_cast<const Motion *>(&moved)})
+            {
+              const auto [x, v, a] = known(*next);
+              CHECK(x == Approx(X + stage.beta * dt * dt * a).margin(1e-13));
+              CHECK(v == Approx(V + stage.gamma * dt * a).margin(1e-13));
+            }
+          CHECK(predicted.velocity.local()[i] == v1);
         }
-      CAPTURE(omega2);
-      CHECK(spectral_radius(A) < 1. + 1e-4);
+      before = some_motion(1.);
     }
 }

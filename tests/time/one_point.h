@@ -12,15 +12,15 @@
 namespace sherd::test
 {
 
-/// Steps of one unit mass x'' + 2 damping x' + omega^2 x = cos(forcing t), taken by the formulas of the library on a
-/// vector of one entry.
+/// Steps of one unit mass x'' + 2 damping x' + omega^2 x = gravity + cos(forcing t), taken by the formulas of the
+/// library on a vector of one entry.
 struct Oscillator
 {
-  double omega2 = 4., damping = 0., forcing = 0.;
+  double omega2 = 4., damping = 0., forcing = 0., gravity = 0.;
 
   double force(double x, double v, double t) const
   {
-    return -omega2 * x - 2. * damping * v + (forcing > 0. ? std::cos(forcing * t) : 0.);
+    return gravity - omega2 * x - 2. * damping * v + (forcing > 0. ? std::cos(forcing * t) : 0.);
   }
 
   /// State (x, v, a) at the end of the steps @p sizes from x0, v0 at t = 0.
@@ -36,31 +36,45 @@ struct Oscillator
     double time = 0., previous = sizes.front();
     for (const double dt : sizes)
       {
-        motion = step(integrator.stage(dt, previous), motion, time);
+        motion = step(integrator.stages(dt, previous), motion, time);
         time += dt;
         previous = dt;
       }
     return motion;
   }
 
-  /// One step. The balance is linear in x_{n+1}, so that two evaluations of its residual give the solution.
-  Motion step(const Stage &stage, const Motion &old, double time) const
+  /// One step. The balance of each stage is linear in x_new, so that two evaluations of its residual give the solution.
+  Motion step(const Stages &stages, const Motion &start, double time) const
   {
-    Motion     next     = predict(stage, old);
+    Motion before = start;
+    for (const Stage &stage : stages)
+      {
+        Motion next = predict(stage, start, before);
+        if (stage.beta == 0.)
+          accelerate(stage, next, 0, force(next.position.local()[0], 0., time + stage.dt));
+        else
+          solve(stage, start, next, time);
+        before = next;
+      }
+    return before;
+  }
+
+private:
+  void solve(const Stage &stage, const Motion &start, Motion &next, double time) const
+  {
     const auto residual = [&](double dx) {
       move(stage, next, 0, dx);
       const auto level = [&](double alpha, const Vector &a, const Vector &b) {
         return interpolate(alpha, a, b).local()[0];
       };
-      return level(stage.alpha_m, old.acceleration, next.acceleration) -
-             force(level(stage.alpha_f, old.position, next.position), level(stage.alpha_f, old.velocity, next.velocity),
-                   time + stage.alpha_f * stage.dt);
+      return level(stage.alpha_m, start.acceleration, next.acceleration) -
+             force(level(stage.alpha_f, start.position, next.position),
+                   level(stage.alpha_f, start.velocity, next.velocity), time + stage.alpha_f * stage.dt);
     };
     const double dx    = stage.dt * stage.dt;
     const double r0    = residual(0.);
     const double slope = (residual(dx) - r0) / dx;
     residual(-dx - r0 / slope);
-    return next;
   }
 };
 

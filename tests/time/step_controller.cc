@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -164,6 +165,163 @@ TEST_CASE("Steps end exactly where they should and leave no tiny one")
     }
 }
 
+TEST_CASE("Given times are hit exactly, whatever the step, and no step is tiny")
+{
+  std::mt19937                           random(11);
+  std::uniform_real_distribution<double> size(.01, 1.);
+  for (int k = 0; k < 100; ++k)
+    {
+      StepControlSettings settings{.initial = .3 * size(random)};
+      for (int i = 0; i < 5; ++i)
+        settings.times.push_back(4. * size(random));
+      StepController c(settings);
+      c.bound(.6 * settings.initial / .99, 1.); // the largest step is the first one
+      std::vector<double> even;
+      for (int i = 1; i < 7; ++i)
+        even.push_back(3. / 7. * i);
+      c.stop_at(even);
+      c.stop_at(even); // known already
+      const double        end     = 3.;
+      std::vector<double> missing = even;
+      for (const double time : settings.times)
+        if (time < end)
+          missing.push_back(time);
+      std::sort(missing.begin(), missing.end());
+      double shortest_gap = end;
+      for (std::size_t i = 0; i < missing.size(); ++i)
+        shortest_gap = std::min(shortest_gap, (i + 1 < missing.size() ? missing[i + 1] : end) - missing[i]);
+      double time = 0., smallest = 1.;
+      int    n = 0;
+      while (time < end)
+        {
+          const double stop = c.next_stop(time, end), remaining = stop - time, dt = c.step_within(remaining);
+          smallest = std::min(smallest, dt);
+          time     = dt == remaining ? stop : time + dt;
+          std::erase(missing, time);
+          c.accept(2, 0., dt);
+          ++n;
+        }
+      CHECK(time == end);
+      CHECK(missing.empty());
+      CHECK(smallest >= .499 * std::min(settings.initial, shortest_gap));
+      CHECK(n <= static_cast<int>(end / settings.initial) + 2 * 12);
+    }
+}
+
+TEST_CASE("Times that differ by rounding are one, and one at the end is the end")
+{
+  auto c = controller(100.);
+  c.stop_at({.3, .1 + .2, 2., std::nextafter(5., 6.)});
+  CHECK(c.next_stop(0., 5.) == .3);
+  CHECK(c.next_stop(.3, 5.) == 2.);
+  CHECK(c.next_stop(2., 5.) == 5.);
+  CHECK(c.next_stop(0., .2) == .2);
+  CHECK_THROWS_AS(c.stop_at({std::numeric_limits<double>::infinity()}), InvalidParameter);
+}
+
+TEST_CASE("A step that was shortened to end in time does not let the next ones grow")
+{
+  auto c = controller(100.);
+  c.accept(2, 0., .4);
+  CHECK(c.step() == 1.);
+  c.accept(7, 0., .4); // so many iterations even for less
+  CHECK(c.step() == Approx(.2));
+  c.accept(2, 0., .2);
+  CHECK(c.step() == Approx(.3));
+}
+
+TEST_CASE("Fixed steps come back after rejections and refinements")
+{
+  StepController c(StepControlSettings{.initial = 1., .rule = StepRule::fixed});
+  c.accept(9);
+  CHECK(c.step() == 1.);
+  c.refine();
+  CHECK(c.step() == 1.);
+  c.reject("test");
+  CHECK(c.step() == .5);
+  c.accept(3);
+  CHECK(c.step() == 1.);
+  c.bound(.6 * .25 / .99, 1.);
+  CHECK(c.step() == Approx(.25));
+  c.accept(3);
+  CHECK(c.step() == Approx(.25));
+  CHECK_FALSE(c.is_inaccurate(1e9));
+}
+
+TEST_CASE("An explicit scheme limits the step without changing what comes after")
+{
+  auto c = controller(100.);
+  c.limit(.1);
+  CHECK(c.step() == .1);
+  CHECK(c.step_within(.05) == .05);
+  c.accept(1, 0., .1);
+  CHECK(c.step() == .1);
+  c.reject("test", .1);
+  CHECK(c.step() == Approx(.05));
+  c.accept(1);
+  c.limit(std::numeric_limits<double>::infinity());
+  CHECK(c.step() == Approx(.075));
+}
+
+TEST_CASE("Steps by error keep the error of a step at its tolerance")
+{
+  // A scheme of second order with an error that changes slowly in time: e = C(t) dt^3.
+  const StepControlSettings settings{.initial = 1e-3, .rule = StepRule::error, .tolerance = 1e-4};
+  StepController            c(settings);
+  const auto                error = [](double t, double dt) { return (2. + std::sin(t)) * dt * dt * dt; };
+  double                    time = 0., worst = 0., least = 1.;
+  int                       rejected = 0, n = 0;
+  while (time < 20.)
+    {
+      const double dt = c.step(), e = error(time, dt);
+      if (c.is_inaccurate(e))
+        {
+          c.reject_inaccurate(e, dt);
+          CHECK(c.step() < dt);
+          ++rejected;
+          continue;
+        }
+      c.accept(1, e, dt);
+      CHECK(c.step() <= 1.5 * dt * (1. + 1e-14));
+      time += dt;
+      if (++n > 20)
+        {
+          worst = std::max(worst, e);
+          least = std::min(least, e);
+        }
+    }
+  CHECK(worst <= settings.tolerance);
+  CHECK(least > .5 * settings.tolerance);
+  CHECK(rejected <= 2);
+}
+
+TEST_CASE("An error that no step can mend ends the run")
+{
+  StepController c(StepControlSettings{.initial = 1., .rule = StepRule::error});
+  CHECK(c.is_inaccurate(std::numeric_limits<double>::quiet_NaN()));
+  const auto run = [&] {
+    for (int n = 0; n < 100; ++n)
+      c.reject_inaccurate(n % 2 ? std::numeric_limits<double>::quiet_NaN() : .5, c.step());
+  };
+  CHECK_THROWS_WITH(run(), Catch::Contains("estimated error") && Catch::Contains("tolerance"));
+  CHECK(c.step() == 1.);
+}
+
+TEST_CASE("The rule is chosen by name")
+{
+  StepControlSettings settings;
+  const auto          section = ParameterSection::of(settings);
+  bool                found   = false;
+  for (const auto &entry : section.entries())
+    if (name(entry) == "rule")
+      {
+        std::get<Parameter>(entry).read({"error", {}});
+        found = true;
+      }
+  CHECK(found);
+  CHECK(settings.rule == StepRule::error);
+}
+
 TEST_CASE("Step control refuses settings that do not make sense")
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -174,4 +332,6 @@ TEST_CASE("Step control refuses settings that do not make sense")
   // A retry of the same size would fail in the same way for ever.
   CHECK_THROWS_AS(StepController(StepControlSettings{.initial = 1., .rejected = 1.}), InvalidParameter);
   CHECK_THROWS_AS(StepController(StepControlSettings{.initial = 1., .rejected_again = 1.}), InvalidParameter);
+  CHECK_THROWS_AS(StepController(StepControlSettings{.initial = 1., .tolerance = 0.}), InvalidParameter);
+  CHECK_THROWS_AS(StepController(StepControlSettings{.initial = 1., .times = {nan}}), InvalidParameter);
 }

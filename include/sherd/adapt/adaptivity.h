@@ -36,9 +36,10 @@ public:
   void prepare(Solver &solver, SurfaceType &surface, SpaceType &space, StateType &state,
                const PreCrack<spacedim> &pre_crack);
 
-  /// One accepted step of at most controller.step() that does not pass @p end_time: attempts it, rejects and retries,
-  /// refines where the result asks for it, and repeats the step if a crack already ran into coarse elements
-  /// (theory F.4). On return @p state is the end of the step on the refined mesh. Collective.
+  /// One accepted step of at most controller.step() that does not pass @p end_time nor the next time at which the
+  /// controller has to stop, and ends exactly there if it reaches it: attempts it, rejects and retries, refines where
+  /// the result asks for it, and repeats the step if a crack already ran into coarse elements (theory F.4). On return
+  /// @p state is the end of the step on the refined mesh. Collective.
   ///
   /// @throws NoConvergence   when the step size falls below its smallest value; @p state is then the last accepted one
   template <class Solver>
@@ -51,7 +52,8 @@ private:
               const Triggers<spacedim> &triggers);
 
   RefinementSettings      settings_;
-  std::vector<SpanTarget> targets_; ///< by patch
+  std::vector<SpanTarget> targets_;            ///< by patch
+  bool                    is_new_mesh_ = true; ///< since the last accepted step
 };
 
 } // namespace sherd

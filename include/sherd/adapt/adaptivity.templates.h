@@ -22,6 +22,7 @@ template <class Solver>
 void Adaptivity<Model>::prepare(Solver &solver, SurfaceType &surface, SpaceType &space, StateType &state,
                                 const PreCrack<spacedim> &pre_crack)
 {
+  is_new_mesh_       = true;
   const auto &model  = solver.model();
   auto       &timers = solver.timers();
   {
@@ -80,6 +81,7 @@ template <class Solver>
 void Adaptivity<Model>::refine(Solver &solver, SurfaceType &surface, SpaceType &space, StateType &state,
                                const Triggers<spacedim> &triggers)
 {
+  is_new_mesh_ = true;
   auto &timers = solver.timers();
   {
     const auto timing = timers.measure("transfer");
@@ -118,7 +120,9 @@ StepSummary Adaptivity<Model>::advance(Solver &solver, SurfaceType &surface, Spa
   StepSummary summary;
   for (;;)
     {
-      const double remaining = end_time - state.time;
+      controller.limit(solver.largest_step());
+      const double stop      = controller.next_stop(state.time, end_time);
+      const double remaining = stop - state.time;
       const double dt        = controller.step_within(remaining);
       auto         result    = solver.attempt(state, dt);
       ++summary.attempts;
@@ -132,6 +136,13 @@ StepSummary Adaptivity<Model>::advance(Solver &solver, SurfaceType &surface, Spa
           controller.reject(summary.rejected == 1 ? result.failure
                                                   : result.failure + " (at first " + summary.messages.front() + ")",
                             dt);
+          continue;
+        }
+      if (controller.is_inaccurate(result.error))
+        {
+          ++summary.rejected;
+          summary.messages.push_back("rejected: estimated error " + print(result.error));
+          controller.reject_inaccurate(result.error, dt);
           continue;
         }
 
@@ -149,21 +160,25 @@ StepSummary Adaptivity<Model>::advance(Solver &solver, SurfaceType &surface, Spa
           continue;
         }
 
-      state = std::move(*result.state);
-      // The sum of time and step may miss the end by rounding.
-      if (dt == remaining)
-        state.time = end_time;
       summary.dt            = dt;
       summary.newton        = result.newton;
-      summary.external_work = result.external_work;
+      summary.error         = result.error;
+      summary.work          = result.work;
       summary.withheld_work = result.withheld_work;
       summary.largest_phase = result.largest_phase;
       {
         const auto timing = solver.timers().measure("energies");
-        summary.energies  = solver.energies(state);
+        if (is_new_mesh_)
+          summary.before = solver.energies(state);
+        summary.energies = solver.energies(*result.state);
+        is_new_mesh_     = false;
       }
+      state = std::move(*result.state);
+      // The sum of time and step may miss the stop by rounding.
+      if (dt == remaining)
+        state.time = stop;
       if (triggers.empty())
-        controller.accept(result.newton);
+        controller.accept(result.newton, result.error, dt);
       else
         {
           refine(solver, surface, space, state, triggers);

@@ -8,7 +8,6 @@
 #include <sherd/base/all_gather.h>
 #include <sherd/base/parameter_section.h>
 #include <sherd/geometry/element_geometry.h>
-#include <sherd/material/wave_speeds.h>
 #include <sherd/state/state.h>
 
 namespace sherd
@@ -166,8 +165,7 @@ Triggers<Model::spacedim> find_triggers(const Assembler<Model>                  
 
   Triggers<Model::spacedim> triggers;
   triggers.radii.assign(marked.size(), 0.);
-  const auto  &model = assembler.model();
-  const double fast  = .6 * wave_speeds(model.split.bulk(), model.split.shear(), model.mass).rayleigh;
+  const double fast = .6 * assembler.fastest_waves().rayleigh;
   for (std::size_t k = 0; k < marked.size(); ++k)
     {
       const auto [p, i] = surface.locate_point(marked[k]);
@@ -175,8 +173,9 @@ Triggers<Model::spacedim> find_triggers(const Assembler<Model>                  
       if (const int a = d.local[marked[k]]; a >= 0)
         {
           const double phase = state.phase.local()[a];
-          const double speed = front_speed(state.previous_phase.local()[a], phase, state.step_size, model.length_scale);
-          triggers.radii[k]  = settings.halo * std::min(1., speed / fast);
+          const double speed =
+              front_speed(state.previous_phase.local()[a], phase, state.step_size, assembler.model().length_scale);
+          triggers.radii[k]       = settings.halo * std::min(1., speed / fast);
           triggers.smallest_phase = std::min(triggers.smallest_phase, phase);
         }
     }

@@ -10,8 +10,10 @@
 #include <sherd/assembly/tied_elements.h>
 #include <sherd/assembly/weak_edge_terms.h>
 #include <sherd/forms/element_energies.h>
+#include <sherd/forms/orientation.h>
 #include <sherd/forms/shell_element.h>
 #include <sherd/geometry/edge_geometry.h>
+#include <sherd/material/wave_speeds.h>
 #include <sherd/state/state.h>
 
 namespace sherd
@@ -35,8 +37,9 @@ struct SuspectElements
 /// The element loop: brings the weak forms of a model to distributed vectors and matrices, those on interfaces and
 /// edges too.
 ///
-/// Caches the geometry and the toughness of the active elements, so it belongs to one mesh and one distribution: make
-/// a new one after each refinement. Threads: OMP_NUM_THREADS. The results do not depend on their number.
+/// Caches the geometry, the toughness and the stiffness of the active elements, so it belongs to one mesh and one
+/// distribution: make a new one after each refinement. Threads: OMP_NUM_THREADS. The results do not depend on their
+/// number.
 template <class Model>
 class Assembler
 {
@@ -50,8 +53,8 @@ public:
   /// rows and columns are empty but for a 1 on the diagonal. Collective.
   /// @param ties         of the surface of @p space
   /// @param weak_edges   Supports::weak_edges()
-  /// @throws InvalidParameter   a degenerate element, a toughness that is not positive; from InterfaceTerms and
-  ///                            WeakEdgeTerms: on all ranks
+  /// @throws InvalidParameter   a degenerate element, a toughness or stiffness that is not positive; from InterfaceTerms
+  ///                            and WeakEdgeTerms: on all ranks
   Assembler(const Model &model, const ShellSpace<degree, spacedim> &space,
             std::shared_ptr<const Distribution> distribution, const std::vector<Tie> &ties = {},
             const std::vector<Supports::WeakEdge> &weak_edges = {});
@@ -62,6 +65,16 @@ public:
 
   /// Shortest element edge of the whole reference surface [length], theory F.3.
   double shortest_edge() const { return shortest_edge_; }
+
+  /// Largest factor of the moduli at a quadrature point of the whole surface.
+  double largest_stiffness() const { return largest_stiffness_; }
+
+  /// Wave speeds of the undamaged surface where it is stiffest: they bound steps and speeds everywhere (theory F.3).
+  WaveSpeeds fastest_waves() const
+  {
+    return wave_speeds(largest_stiffness_ * model_->split.bulk(), largest_stiffness_ * model_->split.shear(),
+                       model_->mass);
+  }
 
   /// int Gc/(2 l0) N_A dA of every owned control point, the scale of its phase residual (theory F.2), shape=(n_owned).
   const std::vector<double> &phase_scale() const { return phase_scale_; }
@@ -117,6 +130,9 @@ public:
   /// @p history is that of the end of the step, committed(level, ...). Collective.
   double withheld_work(const BalanceLevel &level, const Vector &previous, const QuadratureField &history) const;
 
+  /// Work of the inertial force over a step, M a . dx, summed over ranks. Collective.
+  double inertial_work(const Vector &acceleration, const Vector &displacement) const;
+
   /// The memory after a step, by the irreversibility rule of the model: max(H, Psi+) of the level for a history.
   QuadratureField committed(const BalanceLevel &level, const QuadratureField &history) const;
 
@@ -127,11 +143,10 @@ public:
   /// Elements with suspect quadrature points, theory C.2 1. Local.
   SuspectElements suspects(const BalanceLevel &level, const QuadratureField &history) const;
 
-  /// int_e Psi dA / int_e dA with Psi = g Psi+ + Psi- (elastic) and Psi_frac (fracture) of every owned active element.
-  struct ElementDensities
-  {
-    double elastic, fracture;
-  };
+  /// Number of owned active elements that turn inside out from position @p before to @p after (keeps_orientation).
+  int n_turned(const Vector &before, const Vector &after) const;
+
+  /// Of every owned active element.
   std::vector<ElementDensities> densities(const Vector &position, const Vector &phase) const;
 
   /// Position X of quadrature point @p q of active element @p e.
@@ -160,7 +175,7 @@ private:
   std::vector<std::pair<int, int>>    tied_unknowns_;    ///< owned local control point, field
   ScatterMap                          scatter_;
   std::vector<RowRange>               ranges_;
-  double                              shortest_edge_;
+  double                              shortest_edge_, largest_stiffness_;
   std::vector<double>                 phase_scale_, point_area_;
   InterfaceTerms<Model>               interfaces_;
   WeakEdgeTerms<Model>                weak_edges_;

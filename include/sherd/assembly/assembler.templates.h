@@ -62,6 +62,7 @@ Assembler<Model>::Assembler(const Model &model, const ShellSpace<degree, spacedi
       scatter_(space.distribution()),
       ranges_(row_ranges(space.distribution(), omp_get_max_threads())),
       shortest_edge_(std::numeric_limits<double>::infinity()),
+      largest_stiffness_(0.),
       phase_scale_(distribution_->n_owned(), 0.),
       point_area_(distribution_->n_owned(), 0.),
       interfaces_(model, space, ties),
@@ -72,7 +73,7 @@ Assembler<Model>::Assembler(const Model &model, const ShellSpace<degree, spacedi
     std::exception_ptr error;
 #pragma omp parallel
     {
-      // A toughness given as a formula is not for several threads; copies of it are independent.
+      // A field given as a formula is not for several threads; copies of it are independent.
       const Model own = model;
 #pragma omp for schedule(static)
       for (std::size_t e = 0; e < elements_.size(); ++e)
@@ -104,6 +105,8 @@ Assembler<Model>::Assembler(const Model &model, const ShellSpace<degree, spacedi
         for (int c = 0; c < n_fields; ++c)
           tied_extractions_[tied][c] = ties_.transfer(tied, c) * data.geometry.extraction;
       shortest_edge_ = std::min(shortest_edge_, sherd::shortest_edge(data.geometry));
+      largest_stiffness_ =
+          std::max(largest_stiffness_, *std::max_element(data.stiffness.begin(), data.stiffness.end()));
       std::optional<ShapeValues<degree>> storage;
       const auto                        &s      = data.geometry.shapes(storage);
       const auto                         points = space.points_of(static_cast<int>(e));
@@ -121,6 +124,7 @@ Assembler<Model>::Assembler(const Model &model, const ShellSpace<degree, spacedi
         }
     }
   MPI_Allreduce(MPI_IN_PLACE, &shortest_edge_, 1, MPI_DOUBLE, MPI_MIN, distribution_->comm());
+  MPI_Allreduce(MPI_IN_PLACE, &largest_stiffness_, 1, MPI_DOUBLE, MPI_MAX, distribution_->comm());
 }
 
 template <class Model>
@@ -337,9 +341,10 @@ Energies Assembler<Model>::energies(const Vector &position, const Vector &veloci
   for (const auto &energies : part)
     sum += energies;
   sum.constraint  = interfaces_.energy(position, phase) + weak_edges_.energy(position, phase, time);
-  double values[] = {sum.active, sum.passive, sum.kinetic, sum.fracture, sum.constraint};
-  MPI_Allreduce(MPI_IN_PLACE, values, 5, MPI_DOUBLE, MPI_SUM, distribution_->comm());
-  return {values[0], values[1], values[2], values[3], values[4]};
+  double values[] = {sum.active,     sum.passive, sum.kinetic,       sum.fracture,
+                     sum.constraint, sum.bending, sum.diffuse_length};
+  MPI_Allreduce(MPI_IN_PLACE, values, 7, MPI_DOUBLE, MPI_SUM, distribution_->comm());
+  return {values[0], values[1], values[2], values[3], values[4], values[5], values[6]};
 }
 
 template <class Model>
@@ -356,6 +361,22 @@ double Assembler<Model>::withheld_work(const BalanceLevel &level, const Vector &
         const auto before = fields(static_cast<int>(e), level.position, level.acceleration, previous);
         part[e]           = element_withheld_work(*model_, elements_[e], now, before.phase, history[e]);
       }
+  double sum = std::accumulate(part.begin(), part.end(), 0.);
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, distribution_->comm());
+  return sum;
+}
+
+template <class Model>
+double Assembler<Model>::inertial_work(const Vector &acceleration, const Vector &displacement) const
+{
+  const auto         &owns = space_->distribution().owns;
+  std::vector<double> part(elements_.size(), 0.);
+  Vector              phase(distribution_, 1);
+#pragma omp parallel for schedule(static)
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    if (owns[e])
+      part[e] =
+          element_inertial_work(*model_, elements_[e], fields(static_cast<int>(e), displacement, acceleration, phase));
   double sum = std::accumulate(part.begin(), part.end(), 0.);
   MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, distribution_->comm());
   return sum;
@@ -415,8 +436,22 @@ SuspectElements Assembler<Model>::suspects(const BalanceLevel &level, const Quad
 }
 
 template <class Model>
-std::vector<typename Assembler<Model>::ElementDensities> Assembler<Model>::densities(const Vector &position,
-                                                                                     const Vector &phase) const
+int Assembler<Model>::n_turned(const Vector &before, const Vector &after) const
+{
+  const Vector no_phase(distribution_, 1);
+  int          n = 0;
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    if (space_->distribution().owns[e])
+      {
+        // Two positions side by side: the earlier one takes the place of the acceleration.
+        const auto f = fields(static_cast<int>(e), after, before, no_phase);
+        n += !keeps_orientation<Model>(elements_[e], f.acceleration, f.position);
+      }
+  return n;
+}
+
+template <class Model>
+std::vector<ElementDensities> Assembler<Model>::densities(const Vector &position, const Vector &phase) const
 {
   std::vector<ElementDensities> result;
   for (std::size_t e = 0; e < elements_.size(); ++e)

@@ -46,7 +46,10 @@ InterfaceTerms<Model>::InterfaceTerms(const Model &model, const ShellSpace<degre
         cell.scatter = CellScatter<n_fields>(d, cell.tables.points, multiplier, by_point);
         cell.multiplier = penalty ? -1 : d.local[multiplier];
 
-        const double eps = internal::angle_penalty(beta_angle, stiffness, cell.tables.size);
+        double factor = 0.; // of the moduli; the penalty follows the stiffer side
+        for (const auto &point : cell.tables.quadrature)
+          factor = std::max(factor, model.stiffness(point.position));
+        const double eps = internal::angle_penalty(beta_angle, factor * stiffness, cell.tables.size);
         if (stiffness > 0.)
           (penalty ? cell.angle_stiffness : cell.angle_compliance) = penalty ? eps : cell.tables.length / eps;
         if (penalty)

@@ -62,12 +62,13 @@ WeakEdgeTerms<Model>::WeakEdgeTerms(const Model &model, const ShellSpace<degree,
 template <class Model>
 void WeakEdgeTerms<Model>::add_cell(const Model &model, Geometry piece, Cell cell, double beta)
 {
-  double length = 0., area = 0.; // int dS, int h dS
+  double length = 0., area = 0., factor = 0.; // int dS, int h dS, largest one of the moduli
   for (const auto &q : piece.quadrature)
     {
       const double along = (piece.normal_direction == 0 ? q.A2 : q.A1).norm();
       const double det   = q.A1.squaredNorm() * q.A2.squaredNorm() - std::pow(q.A1.dot(q.A2), 2);
       length += q.dS;
+      factor = std::max(factor, model.stiffness(q.position));
       area += q.dS * std::sqrt(det) / along;
     }
   const double h = area / length;
@@ -80,7 +81,7 @@ void WeakEdgeTerms<Model>::add_cell(const Model &model, Geometry piece, Cell cel
     }
   else
     {
-      cell.stiffness = internal::angle_penalty(beta, internal::bending_stiffness(model), h);
+      cell.stiffness = internal::angle_penalty(beta, factor * internal::bending_stiffness(model), h);
       sensitivity_   = std::max(sensitivity_, cell.stiffness / h);
     }
   cell.piece = std::move(piece);

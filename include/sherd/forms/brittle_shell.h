@@ -9,6 +9,7 @@
 #include <sherd/fracture/irreversibility/history.h>
 #include <sherd/fracture/toughness.h>
 #include <sherd/material/split/split.h>
+#include <sherd/material/stiffness_field.h>
 
 namespace sherd
 {
@@ -17,7 +18,8 @@ namespace sherd
 ///
 ///   Psi = g(phi) Psi+ + Psi- + Gc/(4 l0) [(phi - 1)^2 + c1 |grad phi|^2 + c2 (lap phi)^2]
 ///
-/// with the history H in place of Psi+ where it drives the phase.
+/// with the history H in place of Psi+ where it drives the phase. Where the surface is inhomogeneous, Psi+ and Psi- are
+/// those of the split times a factor by position.
 ///
 /// @tparam degree    of the splines
 /// @tparam spacedim  2: a membrane in the plane; 3: a shell in space
@@ -31,22 +33,25 @@ struct BrittleShell
   static constexpr int spacedim = spacedim_;
   static constexpr int n_fields = fields_per_point<spacedim>;
 
-  Split               split;
-  DegradationFunction degradation;
-  Density             crack_density;
-  IrreversibilityRule irreversibility;
-  Toughness<spacedim> toughness;    ///< Gc(X) [energy/length]
-  double              length_scale; ///< l0 [length]
-  double              mass;         ///< rho, mass by reference area
+  Split                    split;
+  DegradationFunction      degradation;
+  Density                  crack_density;
+  IrreversibilityRule      irreversibility;
+  Toughness<spacedim>      toughness;    ///< Gc(X) [energy/length]
+  StiffnessField<spacedim> stiffness;    ///< factor(X) of the moduli of the split
+  double                   length_scale; ///< l0 [length]
+  double                   mass;         ///< rho, mass by reference area
 
   /// @throws InvalidParameter   unless length_scale and mass are positive and finite
   BrittleShell(Split split_, DegradationFunction degradation_, Density crack_density_, Toughness<spacedim> toughness_,
-               double length_scale_, double mass_, IrreversibilityRule irreversibility_ = {})
+               double length_scale_, double mass_, IrreversibilityRule irreversibility_ = {},
+               StiffnessField<spacedim> stiffness_ = {})
       : split(std::move(split_)),
         degradation(std::move(degradation_)),
         crack_density(std::move(crack_density_)),
         irreversibility(std::move(irreversibility_)),
         toughness(std::move(toughness_)),
+        stiffness(std::move(stiffness_)),
         length_scale(length_scale_),
         mass(mass_)
   {

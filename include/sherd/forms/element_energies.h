@@ -8,13 +8,16 @@ namespace sherd
 /// Energies of a body or of a part of it, [energy].
 struct Energies
 {
-  double active     = 0.; ///< int g Psi+ dA
-  double passive    = 0.; ///< int Psi- dA
-  double kinetic    = 0.; ///< int rho v.v / 2 dA
-  double fracture   = 0.; ///< int Psi_frac dA
-  double constraint = 0.; ///< of the continuity across interfaces, theory G
+  double active         = 0.; ///< int g Psi+ dA
+  double passive        = 0.; ///< int Psi- dA
+  double kinetic        = 0.; ///< int rho v.v / 2 dA
+  double fracture       = 0.; ///< int Psi_frac dA
+  double constraint     = 0.; ///< of the continuity across interfaces, theory G
+  double bending        = 0.; ///< part of the elastic energy that the change of curvature adds; 0 in the plane
+  double diffuse_length = 0.; ///< int Psi_frac / Gc dA [length]
 
   double elastic() const { return active + passive; }
+  double membrane() const { return elastic() - bending; } ///< elastic energy of the same metric, k_ab = 0
 
   Energies &operator+=(const Energies &other)
   {
@@ -23,13 +26,41 @@ struct Energies
     kinetic += other.kinetic;
     fracture += other.fracture;
     constraint += other.constraint;
+    bending += other.bending;
+    diffuse_length += other.diffuse_length;
     return *this;
   }
 };
 
-/// Energies of one element. The fields hold the end of the step, with the velocity in place of the acceleration.
+namespace internal
+{
+
+/// A point of the same metric without change of curvature.
+inline SurfacePoint<3> without_bending(const SurfacePoint<3> &point, const ReferencePoint<3> &reference)
+{
+  return {reference, point.metric, reference.curvature};
+}
+
+/// g Psi+ + Psi-
+template <int spacedim>
+inline double degraded_energy(const SplitResponse<spacedim> &response, double g)
+{
+  return g * response.energy_active + response.energy_passive;
+}
+
+} // namespace internal
+
+/// int_e Psi dA / int_e dA of an element with Psi = g Psi+ + Psi- (elastic) and Psi_frac (fracture) [energy/area].
+struct ElementDensities
+{
+  double elastic, fracture;
+};
+
+/// Energies of one element. Membrane energy is that of the point with k_ab = 0, bending energy the rest: exact where
+/// the law separates them; where layers crack one by one, the way in which the degraded energy is shared. The fields
+/// hold the end of the step, with the velocity in place of the acceleration.
 ///
-/// Source: theory J.7 (vi).
+/// Source: theory D (energy balance), J.7 (vi).
 template <class Model>
 Energies element_energies(const Model &model, const ElementData<Model> &data, const ElementFields<Model> &fields)
 {
@@ -45,9 +76,19 @@ Energies element_energies(const Model &model, const ElementData<Model> &data, co
       const double gradient  = A[0] * p.phi_1 * p.phi_1 + A[1] * p.phi_2 * p.phi_2 + 2. * A[2] * p.phi_1 * p.phi_2;
       sum.active += reference.dA * model.degradation.value(p.phi) * p.response.energy_active;
       sum.passive += reference.dA * p.response.energy_passive;
+      if constexpr (Model::spacedim == 3)
+        {
+          const double g    = model.degradation.value(p.phi);
+          const auto   flat = model.split.respond(
+                internal::without_bending(surface_point(data.reference[q], p.frame), data.reference[q]));
+          sum.bending += reference.dA * (internal::degraded_energy(p.response, g) -
+                                         data.stiffness[q] * internal::degraded_energy(flat, g));
+        }
       sum.kinetic += reference.dA * .5 * model.mass * p.inertia.squaredNorm();
-      sum.fracture += reference.dA * crack_energy(model.crack_density, data.toughness[q], model.length_scale, p.phi,
-                                                  gradient, p.laplacian);
+      const double crack =
+          crack_energy(model.crack_density, data.toughness[q], model.length_scale, p.phi, gradient, p.laplacian);
+      sum.fracture += reference.dA * crack;
+      sum.diffuse_length += reference.dA * crack / data.toughness[q];
     }
   return sum;
 }
@@ -79,6 +120,28 @@ double element_withheld_work(const Model &model, const ElementData<Model> &data,
              (model.irreversibility.trial(history[q], p.response.energy_active) - p.response.energy_active) *
              (p.phi - before);
     }
+  return sum;
+}
+
+/// Work of the inertial force of a step, int rho a . dx dA over one element [energy].
+/// @param fields   the displacement of the step in place of the position, the acceleration
+template <class Model>
+double element_inertial_work(const Model &model, const ElementData<Model> &data, const ElementFields<Model> &fields)
+{
+  std::optional<ShapeValues<Model::degree>> storage;
+  const auto                               &s   = data.geometry.shapes(storage);
+  double                                    sum = 0.;
+  for (int q = 0; q < s.n_points; ++q)
+    for (int d = 0; d < Model::spacedim; ++d)
+      {
+        double dx = 0., a = 0.;
+        for (int b = 0; b < s.n_functions; ++b)
+          {
+            dx += s.value[q][b] * fields.position[d][b];
+            a += s.value[q][b] * fields.acceleration[d][b];
+          }
+        sum += data.geometry.reference[q].dA * model.mass * dx * a;
+      }
   return sum;
 }
 

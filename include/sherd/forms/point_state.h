@@ -45,9 +45,10 @@ struct ElementData
   ElementGeometry<Model::degree, Model::spacedim>  geometry;
   std::array<ReferencePoint<Model::spacedim>, n_q> reference;
   std::array<double, n_q>                          toughness; ///< Gc [energy/length]
+  std::array<double, n_q>                          stiffness; ///< factor of the moduli
 };
 
-/// @throws InvalidParameter   degenerate geometry, a toughness that is not positive and finite
+/// @throws InvalidParameter   degenerate geometry, a toughness or stiffness that is not positive and finite
 template <class Model>
 ElementData<Model> element_data(const Model &model, const Surface<Model::degree, Model::spacedim> &surface, int element)
 {
@@ -57,7 +58,9 @@ ElementData<Model> element_data(const Model &model, const Surface<Model::degree,
     {
       data.reference[q] =
           internal::reference_point(std::integral_constant<int, Model::spacedim>(), data.geometry.reference[q]);
-      data.toughness[q] = model.toughness(data.geometry.position(q));
+      const auto position = data.geometry.position(q);
+      data.toughness[q]   = model.toughness(position);
+      data.stiffness[q]   = model.stiffness(position);
     }
   return data;
 }
@@ -133,7 +136,7 @@ struct PointState
   SurfaceFrame<Model::spacedim>  frame;
   Point<Model::spacedim>         inertia; ///< acceleration
   double                         phi, phi_1, phi_2, laplacian;
-  SplitResponse<Model::spacedim> response;
+  SplitResponse<Model::spacedim> response;   ///< with the factor of the moduli there
   double                         driving;    ///< H, trial value
   double                         resistance; ///< against healing, force on the phase by area [force/length]
 };
@@ -156,7 +159,7 @@ PointState<Model> evaluate_point(const Model &model, const ElementData<Model> &d
                       fields.d1[dim],
                       fields.d2[dim],
                       laplacian,
-                      model.split.respond(surface_point(data.reference[q], frame)),
+                      data.stiffness[q] * model.split.respond(surface_point(data.reference[q], frame)),
                       0.,
                       0.};
   p.driving    = model.irreversibility.trial(accepted_history, p.response.energy_active);

@@ -60,5 +60,3 @@ void resume(const Checkpoint<degree, spacedim> &checkpoint, Solver &solver, Surf
 StoredArrays read_checkpoint_arrays(const Environment &env, const std::filesystem::path &file);
 
 } // namespace sherd
-
-#include <sherd/output/checkpoint.templates.h>

@@ -178,6 +178,7 @@ void exchange(Archive archive, StepController::State &controller)
 {
   archive("step", controller.step);
   archive("largest", controller.largest);
+  archive("previous_error", controller.previous_error);
 }
 
 } // namespace internal

@@ -10,7 +10,7 @@ namespace sherd
 {
 
 /// Version of the layout; others are refused.
-inline constexpr int checkpoint_format = 2;
+inline constexpr int checkpoint_format = 3;
 
 /// Writes @p arrays as HDF5, with a head of 512 bytes (an HDF5 user block) that holds the version of the layout, the
 /// size of the file and a checksum of all that follows. The bytes are on the disk when it returns.

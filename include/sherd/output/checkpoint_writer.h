@@ -44,12 +44,12 @@ public:
 
   /// Writes a checkpoint of the present step. @p state stays what it is, but is distributed anew. Collective.
   ///
-  /// @tparam Solver     with timers() and rebuild(state), which has to forget what it kept from earlier steps
-  /// @tparam Recorder   with memory(solver), as RunRecorder has it
+  /// @param memory    of the recorder of the run
+  /// @tparam Solver   with timers() and rebuild(state), which has to forget what it kept from earlier steps
   /// @throws FileError   on all ranks; the earlier checkpoints are still there
-  template <class Solver, int degree, int spacedim, class Recorder>
+  template <class Solver, int degree, int spacedim>
   void write(Solver &solver, const ShellSpace<degree, spacedim> &space, State<degree, spacedim> &state,
-             const StepController &controller, const Recorder &recorder);
+             const StepController &controller, const RecorderMemory &memory);
 
   /// How to go on from the newest one, for the last line of a program: "go on with PROGRAM --restart
   /// DIR/checkpoint.h5".
@@ -68,14 +68,13 @@ private:
   Clock::time_point     last_ = Clock::now();
 };
 
-template <class Solver, int degree, int spacedim, class Recorder>
+template <class Solver, int degree, int spacedim>
 void CheckpointWriter::write(Solver &solver, const ShellSpace<degree, spacedim> &space, State<degree, spacedim> &state,
-                             const StepController &controller, const Recorder &recorder)
+                             const StepController &controller, const RecorderMemory &memory)
 {
   {
     const auto timing = solver.timers().measure("checkpoint");
     const auto global = gather(state, space);
-    const auto memory = recorder.memory(solver);
     on_root(env_.comm(), [&] {
       write_checkpoint(part(),
                        Checkpoint<degree, spacedim>{space.surface(), global, controller.state(), memory, parameters_});

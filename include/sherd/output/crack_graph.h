@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <span>
@@ -58,13 +59,31 @@ struct CrackGraph
 };
 
 /// Which arms are noise. Branch points that counted before keep counting down to a smaller limit, so that one does not
-/// come and go with the rounding of a length.
+/// come and go with the rounding of a length. An arm that an interface cuts off is judged as a whole, when it is joined
+/// (join_cracks); its piece in a patch has the smaller limit.
 struct Pruning
 {
-  double                           limit;       ///< shorter side arms and loops are removed, shorter bridges contracted
-  double                           known_limit; ///< for side arms of a known branch point
-  double                           known_radius; ///< how far from its old place a known branch point may be
+  double limit;        ///< shorter side arms and loops are removed, shorter bridges contracted
+  double known_limit;  ///< for side arms of a known branch point, and for pieces
+  double known_radius; ///< how far from its old place a known branch point may be, and the end
+                       ///< of a piece from the cut
   std::span<const Eigen::Vector3d> known_branch_points;
+  std::span<const Eigen::Vector3d> cut_points; ///< on interfaces, broken
+
+  /// Whether an arm that ends at @p X may go on behind an interface.
+  bool is_cut(const Eigen::Vector3d &X) const { return is_near(X, cut_points); }
+
+  /// Limit for a side arm of the branch point @p X.
+  double side_arm_limit(const Eigen::Vector3d &X) const
+  {
+    return is_near(X, known_branch_points) ? known_limit : limit;
+  }
+
+private:
+  bool is_near(const Eigen::Vector3d &X, std::span<const Eigen::Vector3d> points) const
+  {
+    return std::any_of(points.begin(), points.end(), [&](const auto &Y) { return (X - Y).norm() < known_radius; });
+  }
 };
 
 /// Centre lines of a broken set.  theory L

@@ -90,5 +90,3 @@ private:
 };
 
 } // namespace sherd
-
-#include <sherd/output/crack_tracker.templates.h>

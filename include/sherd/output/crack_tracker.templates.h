@@ -225,9 +225,13 @@ void CrackTracker::update(const Surface<degree, spacedim> &surface, const Eigen:
   if (phase.size() != surface.n_control_points())
     throw DimensionMismatch("crack tracker: " + std::to_string(phase.size()) + " phase values for " +
                             std::to_string(surface.n_control_points()) + " control points");
-  const auto        known = branch_points();
-  const double      l0    = options_.length_scale;
-  const Pruning     pruning{4. * l0, 2. * l0, 2. * l0, known};
+  const auto                   known = branch_points();
+  const double                 l0    = options_.length_scale;
+  const auto                   runs  = internal::broken_runs(surface, phase, lattices_, options_.threshold);
+  std::vector<Eigen::Vector3d> broken;
+  for (const auto &run : runs)
+    broken.insert(broken.end(), run.points.begin(), run.points.end());
+  const Pruning     pruning{4. * l0, 2. * l0, 2. * l0, known, broken};
   PatchedCracks     cracks;
   std::vector<char> self_joined(surface.n_patches(), 0);
   for (const auto &interface : surface.interfaces())
@@ -262,7 +266,7 @@ void CrackTracker::update(const Surface<degree, spacedim> &surface, const Eigen:
       if (!grid.samples().empty())
         cracks.append(crack_graph(grid, field, pruning), p);
     }
-  join(std::move(cracks), self_joined, internal::broken_runs(surface, phase, lattices_, options_.threshold), pruning);
+  join(std::move(cracks), self_joined, runs, pruning);
   tree_.advance(cracks_, ends_inside(), time);
 }
 

@@ -53,5 +53,3 @@ private:
 };
 
 } // namespace sherd
-
-#include <sherd/output/fields_file.templates.h>

@@ -76,5 +76,3 @@ private:
 };
 
 } // namespace sherd
-
-#include <sherd/output/frames.templates.h>

@@ -50,5 +50,3 @@ private:
 };
 
 } // namespace sherd
-
-#include <sherd/output/probes.templates.h>

@@ -34,24 +34,30 @@ public:
   /// @param directory    prepared, with the used.yaml of this run in it
   /// @param initial      surface before any refinement
   /// @param checkpoint   what the run was resumed from, if it was (restart_checkpoint())
-  /// Solver, space, state and controller are those the steps work on; they have to outlive the run.
+  /// Solver, space, state and controller are those the steps work on; they have to outlive the run. The controller is
+  /// asked to stop at evenly spaced frames if its settings want that; where they name times, frames are written.
   /// @throws FileError, InvalidParameter   on all ranks
   RecordedRun(const Environment &env, const OutputDirectory &directory, const SurfaceType &initial,
               const std::optional<Checkpoint<degree, spacedim>> &checkpoint,
               const RecorderSettings<spacedim> &recording, const CheckpointSettings &checkpointing, Solver &solver,
-              const SpaceType &space, StateType &state, const StepController &controller)
+              const SpaceType &space, StateType &state, StepController &controller)
       : env_(env),
         checkpoints_(env, directory, checkpointing),
-        recorder_(checkpoint
-                      ? RunRecorder<degree, spacedim>(env, directory, initial, checkpoint->recorder, recording)
-                      : RunRecorder<degree, spacedim>(env, directory, initial, solver.energies(state), recording)),
+        recorder_(make_recorder(env, directory, initial, checkpoint, completed(recording, solver, controller), solver,
+                                state)),
         solver_(solver),
+        source_(solver),
         space_(space),
         state_(state),
         controller_(controller)
   {
+    std::vector<double> frames;
+    if (controller.settings().hit_frames)
+      for (int k = 1; k < recording.frames; ++k)
+        frames.push_back(recording.frame_time(k));
+    controller.stop_at(frames);
     if (!checkpoint)
-      recorder_.start(solver_, space_, state_);
+      recorder_.start(source_, space_, state_);
   }
 
   /// One accepted step.
@@ -62,27 +68,48 @@ public:
   template <std::invocable Advance>
   void step(const Advance &advance)
   {
-    recorder_.record(solver_, space_, state_, attempt(advance));
+    recorder_.record(source_, space_, state_, attempt(advance));
     const auto reason = stop_requested(env_);
     if (reason || checkpoints_.due(state_.step))
       write_checkpoint();
     if (reason)
       {
-        recorder_.finish(solver_, *reason);
+        recorder_.finish(source_, *reason);
         throw StoppedEarly("at t = " + print(state_.time) + ": " + *reason + "; " + checkpoints_.advice());
       }
   }
 
   /// A checkpoint of the present step, beside those that are written when they are due.
-  void write_checkpoint() { checkpoints_.write(solver_, space_, state_, controller_, recorder_); }
+  void write_checkpoint() { checkpoints_.write(solver_, space_, state_, controller_, memory()); }
 
-  /// The end of the run: writes summary.json.
-  void finish() { recorder_.finish(solver_, "done"); }
+  /// The end of the run: writes summary.json. @param ending   what ended it
+  void finish(const std::string &ending = "done") { recorder_.finish(source_, ending); }
 
   /// Last row of history.csv, totals, and on rank 0 the cracks.
-  RecorderMemory memory() const { return recorder_.memory(solver_); }
+  RecorderMemory memory() { return recorder_.memory(source_); }
 
 private:
+  /// With the names of the loads, and with the times that are asked of the controller.
+  static RecorderSettings<spacedim> completed(RecorderSettings<spacedim> recording, const Solver &solver,
+                                              const StepController &controller)
+  {
+    recording.loads   = solver.loads().names();
+    const auto &times = controller.settings().times;
+    recording.times.insert(recording.times.end(), times.begin(), times.end());
+    return recording;
+  }
+
+  static RunRecorder<degree, spacedim> make_recorder(const Environment &env, const OutputDirectory &directory,
+                                                     const SurfaceType                                 &initial,
+                                                     const std::optional<Checkpoint<degree, spacedim>> &checkpoint,
+                                                     const RecorderSettings<spacedim> &recording, const Solver &solver,
+                                                     const StateType &state)
+  {
+    if (checkpoint)
+      return {env, directory, initial, checkpoint->recorder, recording};
+    return {env, directory, initial, solver.energies(state), recording};
+  }
+
   template <class Advance>
   StepSummary attempt(const Advance &advance)
   {
@@ -94,7 +121,7 @@ private:
       {
         // All ranks fail together. What is known so far is worth a summary, and with other settings the run may go on.
         write_checkpoint();
-        recorder_.finish(solver_, error.what());
+        recorder_.finish(source_, error.what());
         throw NoConvergence(error.what() + ("; to retry with other settings, " + checkpoints_.advice()));
       }
   }
@@ -103,6 +130,7 @@ private:
   CheckpointWriter              checkpoints_;
   RunRecorder<degree, spacedim> recorder_;
   Solver                       &solver_;
+  SolverSource<Solver>          source_;
   const SpaceType              &space_;
   StateType                    &state_;
   const StepController         &controller_;

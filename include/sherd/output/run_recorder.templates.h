@@ -2,18 +2,134 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 
+#include <sherd/base/all_gather.h>
+#include <sherd/base/collective.h>
+#include <sherd/base/profile.h>
+#include <sherd/base/progress.h>
+#include <sherd/output/fields_file.h>
+#include <sherd/output/frames.h>
+#include <sherd/output/history.h>
+#include <sherd/output/json.h>
 #include <sherd/output/run_recorder.h>
+#include <sherd/output/tips_table.h>
 
 namespace sherd
 {
 
 template <int degree, int spacedim>
-template <class Solver>
-void RunRecorder<degree, spacedim>::write_rows(Solver &solver, const SpaceType &space, const StateType &state,
+struct RunRecorder<degree, spacedim>::Files
+{
+  Files(const std::filesystem::path &path, const Surface<degree, spacedim> &surface,
+        const RecorderSettings<spacedim> &settings)
+      : directory(path),
+        history(path),
+        work(path / "work.csv", work_columns(settings)),
+        tips(path),
+        probes(path, surface, settings.points, settings.edges),
+        frames(path),
+        fields(path, degree, spacedim),
+        tracker(surface, settings.crack),
+        progress(0., settings.end_time, std::cout)
+  {
+  }
+
+  Files(const std::filesystem::path &path, const Surface<degree, spacedim> &surface,
+        const RecorderSettings<spacedim> &settings, const RecorderMemory &memory)
+      : directory(path),
+        history(History::resume(path, memory.last.time)),
+        work(CsvTable::resume(path / "work.csv", work_columns(settings), memory.last.time)),
+        tips(TipsTable::resume(path, memory.last.time)),
+        probes(Probes<spacedim>::resume(path, surface, settings.points, settings.edges, memory.last.time)),
+        frames(FrameWriter::resume(path, memory.last.time)),
+        fields(FieldsFile::resume(path, degree, spacedim, memory.last.time)),
+        tracker(surface, settings.crack),
+        progress(memory.last.time, settings.end_time, std::cout)
+  {
+    tracker.restore(memory.cracks);
+  }
+
+  static std::vector<std::string> work_columns(const RecorderSettings<spacedim> &settings)
+  {
+    std::vector<std::string> columns{"step", "time", "supports"};
+    columns.insert(columns.end(), settings.loads.begin(), settings.loads.end());
+    return columns;
+  }
+
+  std::filesystem::path directory;
+  History               history;
+  CsvTable              work;
+  TipsTable             tips;
+  Probes<spacedim>      probes;
+  FrameWriter           frames;
+  FieldsFile            fields;
+  CrackTracker          tracker;
+  ProgressLine          progress;
+};
+
+template <int degree, int spacedim>
+RunRecorder<degree, spacedim>::RunRecorder(const Environment &env, const OutputDirectory &directory,
+                                           const Surface<degree, spacedim> &surface, const Energies &initial,
+                                           const RecorderSettings<spacedim> &settings)
+    : env_(env), settings_(settings), balance_(initial)
+{
+  memory_.energies = initial;
+  on_root(env.comm(), [&] { files_ = std::make_unique<Files>(directory.path(), surface, settings); });
+}
+
+template <int degree, int spacedim>
+RunRecorder<degree, spacedim>::RunRecorder(const Environment &env, const OutputDirectory &directory,
+                                           const Surface<degree, spacedim> &surface, const RecorderMemory &memory,
+                                           const RecorderSettings<spacedim> &settings)
+    : env_(env), settings_(settings), balance_(memory.balance), memory_(memory)
+{
+  on_root(env.comm(), [&] { files_ = std::make_unique<Files>(directory.path(), surface, settings, memory); });
+}
+
+template <int degree, int spacedim>
+RunRecorder<degree, spacedim>::~RunRecorder() = default;
+
+template <int degree, int spacedim>
+void RunRecorder<degree, spacedim>::start(Source &source, const SpaceType &space, const StateType &state)
+{
+  write_rows(source, space, state, {});
+  write_frame(source, space, state);
+  ++memory_.n_frames;
+}
+
+template <int degree, int spacedim>
+void RunRecorder<degree, spacedim>::record(Source &source, const SpaceType &space, const StateType &state,
+                                           const StepSummary &step)
+{
+  balance_.add(step);
+  memory_.energies = step.energies;
+  memory_.totals.add(step);
+  write_rows(source, space, state, step);
+  const bool is_due = state.time >= settings_.frame_time(memory_.n_frames) * (1. - 1e-9);
+  if (is_due || std::find(settings_.times.begin(), settings_.times.end(), state.time) != settings_.times.end())
+    write_frame(source, space, state);
+  memory_.n_frames += is_due;
+}
+
+template <int degree, int spacedim>
+CsvRow RunRecorder<degree, spacedim>::work_row(const HistoryRow &row) const
+{
+  CsvRow cells;
+  cells << row.step << row.time << row.support_work;
+  // None is known before the first step.
+  auto of_loads = balance_.work().loads;
+  of_loads.resize(settings_.loads.size(), 0.);
+  for (const double work : of_loads)
+    cells << work;
+  return cells;
+}
+
+template <int degree, int spacedim>
+void RunRecorder<degree, spacedim>::write_rows(Source &source, const SpaceType &space, const StateType &state,
                                                const StepSummary &step)
 {
-  const auto timing = solver.timers().measure("output");
+  const auto timing = source.timers().measure("output");
 
   HistoryRow row{};
   row.step          = state.step;
@@ -25,7 +141,7 @@ void RunRecorder<degree, spacedim>::write_rows(Solver &solver, const SpaceType &
   row.switched      = step.switched;
   row.elements      = space.surface().n_elements();
   row.dofs          = space.n_unknowns();
-  row.min_h         = solver.assembler().shortest_edge();
+  row.min_h         = source.shortest_edge();
   row.max_phi       = step.largest_phase;
   row.elastic       = memory_.energies.elastic();
   row.kinetic       = memory_.energies.kinetic;
@@ -36,12 +152,26 @@ void RunRecorder<degree, spacedim>::write_rows(Solver &solver, const SpaceType &
   row.balance       = balance_.balance();
   row.wall          = wall_seconds();
 
+  row.active               = memory_.energies.active;
+  row.passive              = memory_.energies.passive;
+  row.membrane             = memory_.energies.membrane();
+  row.bending              = memory_.energies.bending;
+  row.support_work         = balance_.work().supports;
+  row.load_work            = balance_.work().of_loads();
+  row.dissipation          = balance_.dissipation();
+  row.inertial_dissipation = balance_.inertial_dissipation();
+  row.refinement           = balance_.refinement();
+  row.closure              = balance_.closure();
+  row.diffuse_length       = memory_.energies.diffuse_length;
+  row.fastest_tip          = -1;
+  row.error                = step.error;
+
   std::vector<Point<spacedim>> reactions;
   for (const auto &edge : settings_.edges)
-    reactions.push_back(solver.reaction(edge));
+    reactions.push_back(source.reaction(edge));
   const auto all = snapshot(state);
   {
-    const auto tracking = solver.timers().measure("tracker");
+    const auto tracking = source.timers().measure("tracker");
     on_root(env_.comm(), [&] { files_->tracker.update(space.surface(), all.phase, state.time); });
   }
   on_root(env_.comm(), [&] {
@@ -49,7 +179,9 @@ void RunRecorder<degree, spacedim>::write_rows(Solver &solver, const SpaceType &
     row.tips           = files_->tracker.tree().n_active();
     const auto fastest = files_->tracker.tree().fastest();
     row.tip_speed      = fastest ? fastest->speed : 0.;
+    row.fastest_tip    = fastest ? fastest->id : -1;
     files_->history.append(row);
+    files_->work.append(work_row(row));
     files_->tips.append(state.step, state.time, files_->tracker);
     files_->probes.append(space.surface(), all, reactions);
     for (const auto &message : step.messages)
@@ -66,10 +198,9 @@ void RunRecorder<degree, spacedim>::write_rows(Solver &solver, const SpaceType &
 }
 
 template <int degree, int spacedim>
-template <class Solver>
-void RunRecorder<degree, spacedim>::write_frame(Solver &solver, const SpaceType &space, const StateType &state)
+void RunRecorder<degree, spacedim>::write_frame(Source &source, const SpaceType &space, const StateType &state)
 {
-  const auto timing = solver.timers().measure("output");
+  const auto timing = source.timers().measure("output");
 
   // Energy densities of the elements a rank owns, brought together by their numbers.
   struct Entry
@@ -78,7 +209,7 @@ void RunRecorder<degree, spacedim>::write_frame(Solver &solver, const SpaceType 
     double elastic, fracture;
   };
   const auto        &d         = space.distribution();
-  const auto         densities = solver.assembler().densities(state.position, state.phase);
+  const auto         densities = source.densities(state);
   std::vector<Entry> entries;
   for (int e = 0; e < space.n_active_elements(); ++e)
     if (d.owns[e])
@@ -98,18 +229,16 @@ void RunRecorder<degree, spacedim>::write_frame(Solver &solver, const SpaceType 
     files_->frames.write(space.surface(), all, fields);
     files_->fields.write(space.surface(), all);
   });
-  ++memory_.n_frames;
 }
 
 template <int degree, int spacedim>
-template <class Solver>
-void RunRecorder<degree, spacedim>::finish(Solver &solver, const std::string &ending)
+void RunRecorder<degree, spacedim>::finish(Source &source, const std::string &ending)
 {
-  const auto  seconds = phase_seconds(solver);
+  const auto  seconds = phase_seconds(source);
   const auto &last    = memory_.last;
   const auto &totals  = memory_.totals;
   // Meshes only grow: the last one is the largest.
-  const auto profile = make_profile(env_.comm(), solver.timers(), env_.elapsed_seconds(), last.dofs);
+  const auto profile = make_profile(env_.comm(), source.timers(), env_.elapsed_seconds(), last.dofs);
   on_root(env_.comm(), [&] {
     JsonObject wall;
     for (const auto &[phase, value] : seconds)
@@ -143,6 +272,8 @@ void RunRecorder<degree, spacedim>::finish(Solver &solver, const std::string &en
                                                            .add("external_work", last.external_work)
                                                            .add("irreversible", last.irreversible)
                                                            .add("balance", last.balance)
+                                                           .add("dissipation", last.dissipation)
+                                                           .add("closure", last.closure)
                                                            .add("crack_length", last.crack_length))
                                          .add("extreme", JsonObject()
                                                              .add("elastic", memory_.largest_elastic)
@@ -172,23 +303,21 @@ void RunRecorder<degree, spacedim>::finish(Solver &solver, const std::string &en
 }
 
 template <int degree, int spacedim>
-template <class Solver>
-std::map<std::string, double> RunRecorder<degree, spacedim>::phase_seconds(Solver &solver) const
+std::map<std::string, double> RunRecorder<degree, spacedim>::phase_seconds(Source &source) const
 {
-  auto seconds = solver.timers().maximum(env_.comm());
+  auto seconds = source.timers().maximum(env_.comm());
   for (const auto &[phase, earlier] : memory_.phase_seconds)
     seconds[phase] += earlier;
   return seconds;
 }
 
 template <int degree, int spacedim>
-template <class Solver>
-RecorderMemory RunRecorder<degree, spacedim>::memory(Solver &solver) const
+RecorderMemory RunRecorder<degree, spacedim>::memory(Source &source) const
 {
   auto result          = memory_;
   result.balance       = balance_.state();
   result.wall_seconds  = wall_seconds();
-  result.phase_seconds = phase_seconds(solver);
+  result.phase_seconds = phase_seconds(source);
   if (files_)
     result.cracks = files_->tracker.tree().state();
   return result;

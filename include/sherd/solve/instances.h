@@ -5,8 +5,11 @@
 #include <sherd/material/shell_laws.h>
 #include <sherd/material/split/none.h>
 #include <sherd/material/split/surface_stretch.h>
+#include <sherd/solve/explicit_solver.h>
 #include <sherd/solve/monolithic_solver.h>
+#include <sherd/solve/staggered_solver.h>
 #include <sherd/solve/static_solver.h>
+#include <sherd/time/any_integrator.h>
 #include <sherd/time/generalized_alpha.h>
 #include <sherd/time/newmark.h>
 
@@ -38,15 +41,27 @@ using KoiterShell = BrittleShell<degree, 3, split::None<material::StVenantKirchh
 } // namespace models
 
 extern template class Assembler<models::Plate>;
+extern template class StepEquations<models::Plate>;
+extern template class NewtonIteration<models::Plate>;
 extern template class MonolithicSolver<models::Plate, GeneralizedAlpha>;
+extern template class MonolithicSolver<models::Plate, AnyIntegrator>;
+extern template class StaggeredSolver<models::Plate, AnyIntegrator>;
+extern template class ExplicitSolver<models::Plate>;
 extern template class MonolithicSolver<models::Plate, Newmark>;
 
 extern template class Assembler<models::UnsplitPlate>;
+extern template class StepEquations<models::UnsplitPlate>;
+extern template class NewtonIteration<models::UnsplitPlate>;
 extern template class MonolithicSolver<models::UnsplitPlate, GeneralizedAlpha>;
 extern template class MonolithicSolver<models::UnsplitPlate, Newmark>;
 
 extern template class Assembler<models::Shell>;
+extern template class StepEquations<models::Shell>;
+extern template class NewtonIteration<models::Shell>;
 extern template class MonolithicSolver<models::Shell, GeneralizedAlpha>;
+extern template class MonolithicSolver<models::Shell, AnyIntegrator>;
+extern template class StaggeredSolver<models::Shell, AnyIntegrator>;
+extern template class ExplicitSolver<models::Shell>;
 extern template class StaticSolver<models::Shell>;
 
 extern template class Assembler<models::KoiterShell<2>>;

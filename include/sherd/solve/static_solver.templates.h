@@ -122,7 +122,8 @@ auto StaticSolver<Model>::measure(const StateType &state, const Vector &internal
   // meaning (theory F.2).
   const double n_unknowns = static_cast<double>(spacedim) * space_->surface().n_control_points();
   const double floor      = 10. * std::numeric_limits<double>::epsilon() *
-                       (model_->split.bulk() + model_->split.shear() + peaks[1]) * peaks[0] * std::sqrt(n_unknowns);
+                       (assembler_->largest_stiffness() * (model_->split.bulk() + model_->split.shear()) + peaks[1]) *
+                       peaks[0] * std::sqrt(n_unknowns);
   result.allowed = settings_.tolerance * std::sqrt(std::max(sums[1], sums[2])) + floor;
   result.norm    = std::isfinite(sums[1] + sums[2])
                        ? std::max(std::sqrt(sums[0]), peaks[2] / settings_.tolerance * result.allowed)

@@ -1,21 +1,16 @@
 #pragma once
 
-#include <string>
-
-#include <sherd/base/exceptions.h>
-#include <sherd/time/integrator.h>
+#include <sherd/time/alpha_family.h>
 
 namespace sherd
 {
 
 namespace internal
 {
-inline double spectral_radius_in_range(double rho_inf)
+inline alpha_family::Levels generalized_alpha_levels(double rho_inf)
 {
-  if (!(rho_inf >= 0. && rho_inf <= 1.))
-    throw InvalidParameter("generalized-alpha: spectral radius rho_inf = " + std::to_string(rho_inf) +
-                           ", expected a value in [0, 1]; 0.5 is the default, 1 does not dissipate");
-  return rho_inf;
+  const double rho = alpha_family::spectral_radius("generalized-alpha", rho_inf);
+  return {(2. - rho) / (1. + rho), 1. / (1. + rho)};
 }
 } // namespace internal
 
@@ -25,54 +20,32 @@ class PlainGeneralizedAlpha
 {
 public:
   /// @throws InvalidParameter   unless 0 <= rho_inf <= 1
-  explicit PlainGeneralizedAlpha(double rho_inf = .5)
-      : alpha_m_((2. - internal::spectral_radius_in_range(rho_inf)) / (1. + rho_inf)), alpha_f_(1. / (1. + rho_inf))
-  {
-  }
+  explicit PlainGeneralizedAlpha(double rho_inf = .5) : levels_(internal::generalized_alpha_levels(rho_inf)) {}
 
-  Stage stage(double dt, double) const
-  {
-    const double difference = alpha_m_ - alpha_f_;
-    return {dt, alpha_m_, alpha_f_, .5 + difference, .25 * (1. + difference) * (1. + difference)};
-  }
+  Stages stages(double dt, double) const { return alpha_family::constant_steps(levels_, dt); }
 
 private:
-  double alpha_m_, alpha_f_;
+  alpha_family::Levels levels_;
 };
 
-/// Generalized-alpha for changing steps: second order for any sequence of step sizes. With delta = alpha_f - alpha_m,
-/// sigma = dt / previous_dt and D = 1 + delta - delta/sigma,
+/// Generalized-alpha of Chung and Hulbert, alpha_m = (2 - rho) / (1 + rho) and alpha_f = 1 / (1 + rho), second order
+/// for any sequence of step sizes. @p rho_inf is the spectral radius at high frequency: 1 keeps all energy, 0 kills the
+/// highest frequencies in one step.
 ///
-///   alpha_m = (alpha_f - delta/sigma) / D,  gamma = (1/2 - delta/sigma) / D,  beta = (gamma + 1/2)^2 / 4,
-///
-/// because a_n is the acceleration at t_n + delta * previous_dt. At sigma = 1 these are the constants of
-/// PlainGeneralizedAlpha. @p rho_inf is the spectral radius at high frequency: 1 keeps all energy, 0 kills the highest
-/// frequencies in one step.
-///
-/// Source: theory F (changing steps).
+/// Source: theory F.
 class GeneralizedAlpha
 {
 public:
   /// @throws InvalidParameter   unless 0 <= rho_inf <= 1
-  explicit GeneralizedAlpha(double rho_inf = .5) : plain_(rho_inf) {}
+  explicit GeneralizedAlpha(double rho_inf = .5) : levels_(internal::generalized_alpha_levels(rho_inf)) {}
 
-  Stage stage(double dt, double previous_dt) const
-  {
-    Stage        s       = plain_.stage(dt, dt);
-    const double delta   = s.alpha_f - s.alpha_m;
-    const double shifted = delta * previous_dt / dt;
-    const double D       = 1. + delta - shifted;
-    s.alpha_m            = (s.alpha_f - shifted) / D;
-    s.gamma              = (.5 - shifted) / D;
-    s.beta               = .25 * (s.gamma + .5) * (s.gamma + .5);
-    return s;
-  }
+  Stages stages(double dt, double previous_dt) const { return alpha_family::changing_steps(levels_, dt, previous_dt); }
 
 private:
-  PlainGeneralizedAlpha plain_;
+  alpha_family::Levels levels_;
 };
 
-static_assert(TimeIntegrator<PlainGeneralizedAlpha>);
-static_assert(TimeIntegrator<GeneralizedAlpha>);
+static_assert(ImplicitIntegrator<PlainGeneralizedAlpha>);
+static_assert(ImplicitIntegrator<GeneralizedAlpha>);
 
 } // namespace sherd

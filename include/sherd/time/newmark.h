@@ -1,15 +1,14 @@
 #pragma once
 
-#include <string>
-
 #include <sherd/base/exceptions.h>
+#include <sherd/base/print.h>
 #include <sherd/time/integrator.h>
 
 namespace sherd
 {
 
-/// Newmark's scheme: generalized-alpha with alpha_m = alpha_f = 1. The default is the trapezoidal rule, second order
-/// also under changing steps; gamma > 1/2 damps and is of first order.
+/// Newmark's scheme, balanced at the end of the step. The default is the trapezoidal rule, second order also under
+/// changing steps; gamma > 1/2 damps and is of first order.
 ///
 /// Source: theory F.
 class Newmark
@@ -19,16 +18,16 @@ public:
   explicit Newmark(double beta = .25, double gamma = .5) : beta_(beta), gamma_(gamma)
   {
     if (!(gamma >= .5 && 2. * beta >= gamma))
-      throw InvalidParameter("Newmark: beta = " + std::to_string(beta) + ", gamma = " + std::to_string(gamma) +
+      throw InvalidParameter("Newmark: beta = " + print(beta) + ", gamma = " + print(gamma) +
                              ", expected 2 beta >= gamma >= 1/2; the trapezoidal rule is beta = 1/4, gamma = 1/2");
   }
 
-  Stage stage(double dt, double) const { return {dt, 1., 1., gamma_, beta_}; }
+  Stages stages(double dt, double) const { return {newmark_stage(dt, 1., 1., gamma_, beta_)}; }
 
 private:
   double beta_, gamma_;
 };
 
-static_assert(TimeIntegrator<Newmark>);
+static_assert(ImplicitIntegrator<Newmark>);
 
 } // namespace sherd

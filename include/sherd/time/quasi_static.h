@@ -11,9 +11,9 @@ namespace sherd
 /// Source: theory F.2.
 struct QuasiStatic
 {
-  Stage stage(double dt, double) const { return {dt, 0., 1., 1., 1.}; }
+  Stages stages(double dt, double) const { return {newmark_stage(dt, 0., 1., 1., 1.)}; }
 };
 
-static_assert(TimeIntegrator<QuasiStatic>);
+static_assert(ImplicitIntegrator<QuasiStatic>);
 
 } // namespace sherd

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <sherd/base/exceptions.h>
 #include <sherd/base/parameter_section.h>
@@ -11,6 +13,14 @@
 
 namespace sherd
 {
+
+/// What decides the size of the next step.
+enum class StepRule
+{
+  newton, ///< the number of Newton iterations, paper Eq. (13)
+  fixed,  ///< nothing: the first step is the size of all
+  error   ///< the error of a step that the integrator estimates
+};
 
 /// Factors of the step size, paper Eq. (13), and what happens on rejection (theory F.3, F.4).
 struct StepControlSettings
@@ -25,6 +35,11 @@ struct StepControlSettings
   double courant        = .99;  ///< dt_max = courant * dx_min / (0.6 c_R)
   double smallest       = 1e-8; ///< dt_min / dt_max, below which a run ends
 
+  StepRule            rule       = StepRule::newton;
+  double              tolerance  = 1e-3;  ///< of the estimated error of a step; rule error
+  std::vector<double> times      = {};    ///< steps end exactly here, and a frame is written [time]
+  bool                hit_frames = false; ///< whether steps end exactly at the evenly spaced frames
+
   void declare(ParameterSection &section)
   {
     section.value("initial", initial, "time", range::positive(), "first step");
@@ -36,25 +51,39 @@ struct StepControlSettings
     section.value("rejected_again", rejected_again, "-", range::open(0., 1.), "factor of later retries");
     section.value("courant", courant, "-", range::left_open(0., 1.), "largest step over dx_min / (0.6 c_R)");
     section.value("smallest", smallest, "-", range::open(0., 1.), "smallest step over the largest; the run ends below");
+    section.choice("rule", rule, {{"newton", StepRule::newton}, {"fixed", StepRule::fixed}, {"error", StepRule::error}},
+                   "what sets the step: Newton iterations (paper Eq. (13)), nothing, or the estimated error");
+    section.value("tolerance", tolerance, "-", range::positive(), "error of a step that is allowed, for rule error");
+    section.value("times", times, "time", range::positive(),
+                  "steps end exactly at these times, and frames are written");
+    section.value("hit_frames", hit_frames, "whether steps end exactly at the evenly spaced frames");
   }
 };
 
-/// Step sizes from the number of Newton iterations, paper Eq. (13), bounded by dt_max = dx_min / (0.6 c_R): a crack tip
-/// stays below 0.6 c_R and so crosses at most one element a step.
+/// Step sizes, bounded by dt_max = dx_min / (0.6 c_R): a crack tip stays below 0.6 c_R and so crosses at most one
+/// element a step. They follow the number of Newton iterations (paper Eq. (13)), stay fixed, or keep the estimated
+/// error e of a step near its tolerance with the proportional and integral factor
+///
+///   (0.8 tolerance / e)^(0.7/3) (e_before / 0.8 tolerance)^(0.4/3), between rejected_again and few;
+///
+/// a step with e > tolerance is rejected. Whatever the rule, a step that was shortened to end at a given time does not
+/// let the next ones grow: it says nothing of longer ones.
+///
+/// Source: theory F.3.
 class StepController
 {
 public:
   /// What it remembers of accepted steps, for checkpoints.
   struct State
   {
-    double step;    ///< next step [time]
-    double largest; ///< its bound [time]
+    double step;                ///< next step [time]
+    double largest;             ///< its bound [time]
+    double previous_error = 0.; ///< estimate of the last step, rule error; 0: none
   };
 
   /// @throws InvalidParameter   a step or factor that is not positive; a rejected step that would not become smaller
   explicit StepController(const StepControlSettings &settings) : settings_(settings), dt_(settings.initial)
   {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     require("initial", settings.initial, infinity);
     require("few", settings.few, infinity);
     require("normal", settings.normal, infinity);
@@ -64,7 +93,11 @@ public:
     require("rejected_again", settings.rejected_again, 1.);
     require("courant", settings.courant, infinity);
     require("smallest", settings.smallest, 1.);
+    require("tolerance", settings.tolerance, infinity);
+    stop_at(settings.times);
   }
+
+  const StepControlSettings &settings() const { return settings_; }
 
   /// The bound follows the mesh. @param shortest_edge dx_min [length]  @param rayleigh_speed c_R [length/time]
   void bound(double shortest_edge, double rayleigh_speed)
@@ -73,64 +106,128 @@ public:
     dt_      = std::min(dt_, largest_);
   }
 
-  State state() const { return {dt_, largest_}; }
+  /// Steps stay below the largest stable one of an explicit scheme, without forgetting their size. Infinite: no limit.
+  void limit(double largest_stable) { stable_ = largest_stable; }
+
+  /// Steps end exactly at these times besides. A time that differs from one that is known by rounding is left out.
+  /// @throws InvalidParameter   a time that is not finite
+  void stop_at(const std::vector<double> &times)
+  {
+    for (const double time : times)
+      {
+        if (!std::isfinite(time))
+          throw InvalidParameter("step control: times has " + print(time) + ", expected finite times");
+        const auto place = std::lower_bound(stops_.begin(), stops_.end(), time);
+        const bool known = (place != stops_.end() && same_time(*place, time)) ||
+                           (place != stops_.begin() && same_time(*std::prev(place), time));
+        if (!known)
+          stops_.insert(place, time);
+      }
+  }
+
+  /// Where the steps after @p time have to end next: the next of the given times, or @p end.
+  double next_stop(double time, double end) const
+  {
+    const auto next = std::upper_bound(stops_.begin(), stops_.end(), time);
+    return next == stops_.end() || *next > end || same_time(*next, end) ? end : *next;
+  }
+
+  State state() const { return {dt_, largest_, previous_error_}; }
 
   /// Goes on from a checkpoint; the settings stay its own.
   void restore(const State &state)
   {
-    dt_      = state.step;
-    largest_ = state.largest;
-    retries_ = 0;
+    dt_             = state.step;
+    largest_        = state.largest;
+    previous_error_ = state.previous_error;
+    retries_        = 0;
   }
 
-  double step() const { return dt_; }
+  double step() const { return std::min(dt_, stable_); }
   double largest() const { return largest_; }
 
   /// Step to take so that @p remaining is not overshot: the last step is @p remaining itself, and none is left that is
   /// tiny.
   double step_within(double remaining) const
   {
-    if (dt_ >= remaining * (1. - 1e-10))
+    if (step() >= remaining * (1. - 1e-10))
       return remaining;
-    return dt_ > .5 * remaining ? .5 * remaining : dt_;
+    return step() > .5 * remaining ? .5 * remaining : step();
   }
 
-  /// After an accepted step of @p newton iterations.
-  void accept(int newton)
+  /// After an accepted step of @p newton iterations. @param error  estimated, for rule error
+  /// @param taken   its size, the present one if left out
+  void accept(int newton, double error = 0., double taken = infinity)
   {
-    retries_ = 0;
-    scale(newton < 4 ? settings_.few : newton == 4 ? settings_.normal : settings_.many);
+    retries_             = 0;
+    taken                = std::min(taken, step());
+    const bool shortened = taken < step() * (1. - 1e-10);
+    switch (settings_.rule)
+      {
+      case StepRule::newton:
+        {
+          const double factor = newton < 4 ? settings_.few : newton == 4 ? settings_.normal : settings_.many;
+          if (!shortened)
+            scale(factor);
+          else if (factor < 1.)
+            dt_ = std::min(dt_, factor * taken);
+          break;
+        }
+      case StepRule::fixed:
+        dt_ = std::min(settings_.initial, largest_);
+        break;
+      case StepRule::error:
+        {
+          const double wished = taken * error_factor(error);
+          if (!shortened || wished < taken)
+            dt_ = std::min(wished, largest_);
+          previous_error_ = error;
+          break;
+        }
+      }
   }
 
   /// Instead of accept() when the mesh was refined after the step; also before the step is repeated on a finer mesh.
   void refine()
   {
-    retries_ = 0;
-    scale(settings_.refined);
+    retries_        = 0;
+    previous_error_ = 0.;
+    if (settings_.rule != StepRule::fixed)
+      scale(settings_.refined);
+  }
+
+  /// Whether the estimated error of a step forbids to accept it.
+  bool is_inaccurate(double error) const
+  {
+    return settings_.rule == StepRule::error && !(error <= settings_.tolerance);
   }
 
   /// After a rejected step of size @p attempted, the present one if left out.
   /// @throws NoConvergence   when the step falls below dt_min; @p why is part of the message. The step is then the one
   ///                         before the rejections, where a checkpoint can go on with other settings
-  void reject(const std::string &why, double attempted = std::numeric_limits<double>::infinity())
+  void reject(const std::string &why, double attempted = infinity)
   {
-    if (retries_ == 0)
-      before_rejections_ = dt_;
-    dt_ = std::min(dt_, attempted);
-    scale(retries_++ == 0 ? settings_.rejected : settings_.rejected_again);
-    const double reference = std::isfinite(largest_) ? largest_ : settings_.initial;
-    if (dt_ < settings_.smallest * reference)
-      {
-        const NoConvergence error("the step size fell to " + print(dt_) + ", " + print(dt_ / reference) +
-                                  " of its bound, after " + std::to_string(retries_) + " rejections: " + why +
-                                  "; try a finer mesh at the crack, a smaller load step or degradation::Quadratic");
-        dt_      = before_rejections_;
-        retries_ = 0;
-        throw error;
-      }
+    shorten(attempted, retries_ == 0 ? settings_.rejected : settings_.rejected_again, why,
+            "try a finer mesh at the crack, a smaller load step or degradation::Quadratic");
+  }
+
+  /// After a step of size @p attempted with is_inaccurate(error).
+  /// @throws NoConvergence   as reject()
+  void reject_inaccurate(double error, double attempted)
+  {
+    const double factor = std::isfinite(error)
+                              ? std::max(.9 * std::cbrt(settings_.tolerance / error), settings_.rejected_again)
+                              : settings_.rejected_again;
+    shorten(attempted, factor,
+            "the estimated error " + print(error) + " exceeds the tolerance " + print(settings_.tolerance),
+            "try a larger tolerance or rule newton");
   }
 
 private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  static bool same_time(double a, double b) { return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b)); }
+
   static void require(const std::string &name, double value, double below)
   {
     if (!(value > 0. && value < below))
@@ -138,13 +235,49 @@ private:
                              (std::isfinite(below) ? " and < " + print(below) : ""));
   }
 
+  /// Error that steps aim at.
+  double aim() const { return .8 * settings_.tolerance; }
+
+  /// Factor of the step after one with this error.
+  double error_factor(double error) const
+  {
+    if (!(error > 0.))
+      return settings_.few;
+    const double factor = previous_error_ > 0.
+                              ? std::pow(aim() / error, .7 / 3.) * std::pow(previous_error_ / aim(), .4 / 3.)
+                              : std::cbrt(aim() / error);
+    return std::clamp(factor, settings_.rejected_again, std::max(settings_.few, 1.));
+  }
+
+  void shorten(double attempted, double factor, const std::string &why, const std::string &advice)
+  {
+    if (retries_ == 0)
+      before_rejections_ = dt_;
+    ++retries_;
+    dt_ = std::min(step(), attempted);
+    scale(factor);
+    const double reference = std::isfinite(largest_) ? largest_ : settings_.initial;
+    if (dt_ < settings_.smallest * reference)
+      {
+        const NoConvergence error("the step size fell to " + print(dt_) + ", " + print(dt_ / reference) +
+                                  " of its bound, after " + std::to_string(retries_) + " rejections: " + why + "; " +
+                                  advice);
+        dt_      = before_rejections_;
+        retries_ = 0;
+        throw error;
+      }
+  }
+
   void scale(double factor) { dt_ = std::min(dt_ * factor, largest_); }
 
   StepControlSettings settings_;
   double              dt_;
-  double              largest_           = std::numeric_limits<double>::infinity(); ///< until bound() is called
+  double              largest_ = infinity; ///< until bound() is called
+  double              stable_  = infinity; ///< of an explicit scheme
+  std::vector<double> stops_;              ///< ascending
   int                 retries_           = 0;
   double              before_rejections_ = 0.;
+  double              previous_error_    = 0.;
 };
 
 } // namespace sherd

@@ -1,0 +1,237 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <sherd/base/print.h>
+#include <sherd/solve/critical_step.h>
+#include <sherd/solve/explicit_solver.h>
+
+namespace sherd
+{
+
+template <class Model>
+void ExplicitSolver<Model>::rebuild(const StateType &state)
+{
+  if (this->space().n_multipliers() > 0)
+    throw InvalidParameter("explicit solver: the space keeps patches together by " +
+                           std::to_string(this->space().n_multipliers()) +
+                           " multipliers, which have no mass; use continuity::Penalty or an implicit solver");
+  Base::rebuild(state);
+  const auto timing = this->timers().measure("set-up");
+  this->assembler().mass_matrix(this->newton_.matrix());
+  mass_                 = lumped_mass(this->newton_.matrix());
+  const auto &supported = this->equations_.supported();
+  for (std::size_t k = 0; k < supported.fixed().size(); ++k)
+    if (supported.fixed()[k] && !supported.is_held(k))
+      mass_->local()[k] = 0.;
+  start_.reset();
+  end_.reset();
+  estimate_largest_step(state);
+}
+
+template <class Model>
+void ExplicitSolver<Model>::estimate_largest_step(const StateType &state)
+{
+  const auto timing = this->timers().measure("stable step");
+  Vector     force(state.distribution, n_fields), external = force, rest = state.acceleration;
+  rest.fill(0.);
+  auto &stiffness = this->newton_.matrix();
+  this->newton_.forget_tangent();
+  this->assembler().linearise({state.position, rest, state.phase}, state.history, 0., PhaseTangent::consistent,
+                              this->assembler().evaluate(this->loads(), state.time), force, external, stiffness);
+  std::vector<char> free = this->equations_.supported().fixed();
+  for (std::size_t k = 0; k < free.size(); ++k)
+    free[k] = free[k] || k % n_fields == spacedim ? 0 : 1;
+  largest_step_ = 2. / std::sqrt(eigenvalue_bound(stiffness, *mass_, free));
+  n_steps_      = 0;
+}
+
+template <class Model>
+auto ExplicitSolver<Model>::forces_at_rest(const Vector &position, const Vector &phase, const QuadratureField &history,
+                                           double time) const -> Forces
+{
+  Vector rest = position;
+  rest.fill(0.);
+  Vector total(phase.shared_distribution(), n_fields), external = total;
+  this->assembler().force({position, rest, phase}, history, this->assembler().evaluate(this->loads(), time), total,
+                          external);
+  return {position, std::move(total), std::move(external), time};
+}
+
+template <class Model>
+void ExplicitSolver<Model>::add_inertia(Forces &forces, const Vector &acceleration) const
+{
+  for (int a = 0; a < acceleration.distribution().n_owned(); ++a)
+    for (int c = 0; c < spacedim; ++c)
+      if (const int k = a * n_fields + c; mass_->local()[k] > 0.)
+        forces.total.local()[k] += mass_->local()[k] * acceleration.local()[a * spacedim + c];
+}
+
+template <class Model>
+void ExplicitSolver<Model>::set_initial_acceleration(StateType &state)
+{
+  const auto  timing = this->timers().measure("initial state");
+  const auto  forces = forces_at_rest(state.position, state.phase, state.history, state.time);
+  const auto &fixed  = this->equations_.supported().fixed();
+  Vector      rate(state.distribution, n_fields);
+  for (std::size_t k = 0; k < fixed.size(); ++k)
+    if (!fixed[k] && k % n_fields != spacedim)
+      rate.local()[k] = (forces.external.local()[k] - forces.total.local()[k]) / mass_->local()[k];
+  rate.update_ghosts();
+  this->equations_.supported().complete(rate);
+  for (int a = 0; a < state.distribution->n_local(); ++a)
+    for (int c = 0; c < spacedim; ++c)
+      state.acceleration.local()[a * spacedim + c] = rate.local()[a * n_fields + c];
+}
+
+template <class Model>
+void ExplicitSolver<Model>::balance(Forces &forces, const StateType &state, Motion &next, double dt) const
+{
+  // Increments of a: free unknowns by their forces, held ones by three points of the path of their support.
+  const auto  &supported = this->equations_.supported();
+  const auto   stage     = CentralDifference().stages(dt, dt).front();
+  const Vector at_start  = supported.moves(state.position, state.time),
+               at_middle = supported.moves(state.position, state.time + .5 * dt),
+               at_end    = supported.moves(state.position, state.time + dt);
+  Vector     rate(state.distribution, n_fields), correction = rate;
+  const auto index = [](std::size_t k) { return k / n_fields * spacedim + k % n_fields; };
+  for (std::size_t k = 0; k < supported.fixed().size(); ++k)
+    {
+      if (k % n_fields == spacedim || (supported.fixed()[k] && !supported.is_held(k)))
+        continue;
+      const auto   i    = index(k);
+      const double u[3] = {at_start.local()[i], at_middle.local()[i], at_end.local()[i]};
+      const double a    = supported.is_held(k)
+                              ? 4. * (u[0] - 2. * u[1] + u[2]) / (dt * dt)
+                              : (forces.external.local()[k] - forces.total.local()[k]) / mass_->local()[k];
+      rate.local()[k]   = a - next.acceleration.local()[i];
+      if (supported.is_held(k))
+        correction.local()[k] =
+            (3. * u[2] - 4. * u[1] + u[0]) / dt - (next.velocity.local()[i] + stage.gamma * dt * rate.local()[k]);
+    }
+  for (Vector *values : {&rate, &correction})
+    {
+      values->update_ghosts();
+      supported.complete(*values);
+    }
+  for (int a = 0; a < state.distribution->n_local(); ++a)
+    for (int c = 0; c < spacedim; ++c)
+      {
+        const auto i = a * spacedim + c;
+        accelerate(stage, next, i, next.acceleration.local()[i] + rate.local()[a * n_fields + c]);
+        next.velocity.local()[i] += correction.local()[a * n_fields + c];
+      }
+  add_inertia(forces, next.acceleration);
+}
+
+template <class Model>
+bool ExplicitSolver<Model>::belongs_to(const std::optional<Forces> &forces, const StateType &state) const
+{
+  int        same = forces ? std::equal(state.position.local().begin(), state.position.local().end(),
+                                        forces->position.local().begin())
+                           : 0;
+  const auto comm = state.distribution->comm();
+  MPI_Allreduce(MPI_IN_PLACE, &same, 1, MPI_INT, MPI_MIN, comm);
+  return same != 0;
+}
+
+template <class Model>
+double ExplicitSolver<Model>::inertial_work(const Vector &acceleration, const Vector &displacement) const
+{
+  double sum = 0.;
+  for (int a = 0; a < acceleration.distribution().n_owned(); ++a)
+    for (int c = 0; c < spacedim; ++c)
+      sum += mass_->local()[a * n_fields + c] * acceleration.local()[a * spacedim + c] *
+             displacement.local()[a * spacedim + c];
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, acceleration.distribution().comm());
+  return sum;
+}
+
+template <class Model>
+Energies ExplicitSolver<Model>::energies(const StateType &state) const
+{
+  auto energies    = Base::energies(state);
+  energies.kinetic = .5 * inertial_work(state.velocity, state.velocity);
+  return energies;
+}
+
+template <class Model>
+auto ExplicitSolver<Model>::attempt(const StateType &state, double dt) -> Result
+{
+  const auto timing = this->timers().measure("step");
+  Result     result;
+  if (!(dt <= largest_step_ * (1. + 1e-12)))
+    {
+      result.failure = "a step of " + print(dt) + " exceeds the largest stable one, " + print(largest_step_);
+      return result;
+    }
+  auto        &equations = this->equations_;
+  const auto  &supported = equations.supported();
+  const Motion start{state.position, state.velocity, state.acceleration};
+  Motion       next = predict(CentralDifference().stages(dt, dt).front(), start, start);
+  axpy(1., supported.moves(next.position, state.time + dt), next.position);
+
+  auto system = equations.phase_system(
+      next.position, equations.extrapolate(state.phase, state.previous_phase, dt / equations.previous_step(state, dt)),
+      state.history);
+  if (!this->newton_.find_stable_state(equations, system, result))
+    return result;
+
+  {
+    const auto measuring = this->timers().measure("residual");
+    if (belongs_to(end_, state))
+      start_ = std::move(end_);
+    else if (!belongs_to(start_, state))
+      {
+        start_ = forces_at_rest(state.position, state.phase, state.history, state.time);
+        add_inertia(*start_, state.acceleration);
+      }
+    end_ = forces_at_rest(next.position, system.phase, state.history, state.time + dt);
+    balance(*end_, state, next, dt);
+  }
+  const double size = norm(next.acceleration) + norm(next.velocity) + norm(next.position);
+  if (!std::isfinite(size))
+    {
+      result.failure = "the motion is not finite after the step";
+      return result;
+    }
+  if (!equations.keeps_orientation(state.position, next.position, result))
+    return result;
+
+  StateType    end          = state;
+  const Vector displacement = difference(next.position, state.position), half = [&] {
+    Vector way = displacement;
+    scale(.5, way);
+    return way;
+  }();
+  Vector no_change = state.phase;
+  no_change.fill(0.);
+  const BalanceLevel before{state.position, state.acceleration, state.phase},
+      after{next.position, next.acceleration, system.phase};
+  result.work = equations.work({before, start_->time, start_->total, start_->external}, half, no_change);
+  result.work +=
+      equations.work({after, end_->time, end_->total, end_->external}, half, difference(system.phase, state.phase));
+  result.work += equations.work_of_rotations(next.position, state.time, state.time + dt);
+  result.work.inertial = inertial_work(state.acceleration, half) + inertial_work(next.acceleration, half);
+  end.history          = this->assembler().committed(after, state.history);
+  result.withheld_work = this->assembler().withheld_work(after, state.phase, end.history);
+  result.error         = equations.error(start, next, dt);
+  equations.set_total_force(end_->total);
+  end.position       = std::move(next.position);
+  end.velocity       = std::move(next.velocity);
+  end.acceleration   = std::move(next.acceleration);
+  end.previous_phase = state.phase;
+  end.phase          = std::move(system.phase);
+  end.time           = state.time + dt;
+  end.step_size      = dt;
+  end.step           = state.step + 1;
+  if (++n_steps_ >= renewal)
+    estimate_largest_step(end);
+  result.state = std::move(end);
+  return result;
+}
+
+} // namespace sherd

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <limits>
+#include <string>
+
+#include <sherd/solve/newton.h>
+
+namespace sherd
+{
+
+/// What all solvers of steps offer besides the step itself: the equations, the state at the beginning, energies and
+/// reactions.
+template <class Model>
+class SolverBase
+{
+public:
+  static constexpr int degree   = Model::degree;
+  static constexpr int spacedim = Model::spacedim;
+  static constexpr int n_fields = Model::n_fields;
+  using StateType               = State<degree, spacedim>;
+  using Result                  = StepResult<degree, spacedim>;
+  using System                  = StepSystem<Model>;
+
+  /// Prepares for the present mesh of the space and the distribution of @p state. Call it first and after each
+  /// refinement. Collective.
+  void rebuild(const StateType &state)
+  {
+    const auto timing = timers().measure("set-up");
+    equations_.rebuild(state);
+    newton_.rebuild(equations_);
+  }
+
+  const Assembler<Model>             &assembler() const { return equations_.assembler(); }
+  const ShellSpace<degree, spacedim> &space() const { return equations_.space(); }
+  const Model                        &model() const { return equations_.model(); }
+  const Loads<spacedim>              &loads() const { return equations_.loads(); }
+
+  /// Solves the phase equation at the displacement of @p state, from its phase, with its history. Collective.
+  /// @throws NoConvergence
+  void equilibrate_phase(StateType &state)
+  {
+    const auto timing = timers().measure("initial state");
+    equations_.supported().complete_phase(state.phase);
+    auto   system = equations_.phase_system(state.position, state.phase, state.history);
+    Result result;
+    newton_.forget_tangent();
+    if (!newton_.find_stable_state(equations_, system, result))
+      throw NoConvergence("initial phase field: " + result.failure);
+    newton_.forget_tangent();
+    state.phase          = system.phase;
+    state.previous_phase = system.phase;
+  }
+
+  /// Solves M a = f_ext - f_int at the time of @p state. Collective.
+  void set_initial_acceleration(StateType &state)
+  {
+    const auto timing = timers().measure("initial state");
+    newton_.forget_tangent();
+    equations_.set_initial_acceleration(state, newton_.matrix());
+  }
+
+  /// Energies of @p state. Collective.
+  Energies energies(const StateType &state) const
+  {
+    return assembler().energies(state.position, state.velocity, state.phase, state.time);
+  }
+
+  /// Sum of the internal and inertial forces on a named edge, at the end of the last attempted step: what its supports
+  /// and loads exert on the surface, shape=(spacedim). Collective.
+  Point<spacedim> reaction(const std::string &edge) const
+  {
+    const auto &force = equations_.total_force();
+    return force ? edge_force(space(), *force, edge) : Point<spacedim>(Point<spacedim>::Zero());
+  }
+
+  /// c_R of the undamaged surface where it is stiffest (theory F.3). After rebuild().
+  double rayleigh_speed() const { return assembler().fastest_waves().rayleigh; }
+
+  /// Largest stable step [time]: an implicit scheme has none.
+  double largest_step() const { return std::numeric_limits<double>::infinity(); }
+
+  PhaseTimers &timers() { return equations_.timers(); }
+
+protected:
+  SolverBase(const Model &model, const ShellSpace<degree, spacedim> &space, const Supports &supports,
+             const Loads<spacedim> &loads, const NewtonSettings &settings)
+      : equations_(model, space, supports, loads, settings), newton_(settings)
+  {
+  }
+  ~SolverBase() = default;
+
+  StepEquations<Model>   equations_;
+  NewtonIteration<Model> newton_; ///< of the coupled system, or of the phase
+};
+
+} // namespace sherd
