@@ -175,7 +175,7 @@ TEST_CASE("Weak edges: an edge that turns does the work that the strip takes up"
       state = std::move(*result.state);
       StepSummary summary;
       summary.energies      = solver.energies(state);
-      summary.external_work = result.external_work;
+      summary.work          = result.work;
       summary.withheld_work = result.withheld_work;
       books.add(summary);
     }
