@@ -278,7 +278,7 @@ void refine_around_cap(Surface<degree, 3> &surface, const Parameters &prm)
       const auto       X    = surface.control_points();
       std::vector<int> marked;
       for (int A = 0; A < X.rows(); ++A)
-        if (std::abs(polar_angle(X.row(A).transpose()) - border) < 2. * prm.width + .5 * size)
+        if (std::abs(polar_angle(X.row(A).transpose()) - border) < 2. * prm.width + 1.5 * size)
           marked.push_back(A);
       surface.refine(marked, {{std::ldexp(1., -level), std::ldexp(1., -level)}}); // elements of a patch have length 1
     }

@@ -97,6 +97,11 @@ struct Strip
         state(space),
         solver(model, space, supports, loads, QuasiStatic(), prm.newton)
   {
+    // The sides of the strip are planes of symmetry, so that it is a piece of an infinite body. At free edges, where
+    // the fourth-order density has lap phi = 0, a crack costs less.
+    supports.phase_symmetry("bottom");
+    supports.phase_symmetry("top");
+
     // A crack that is there from the beginning is a history in a narrow strip (theory D): the phase itself would be
     // forgotten in the first step. prepare() refines around it, sets this history and solves for the phase.
     const double      x = prm.half_length + prm.place;

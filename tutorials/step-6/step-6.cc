@@ -84,9 +84,16 @@ struct Parameters
   double              largest_step = 1e-2;
   StepControlSettings steps{.initial = 1e-2};
   RefinementSettings  refinement{.target = 3.75e-3, .phase = .85, .phase_with = .9, .halo = 1.5e-2};
-  NewtonSettings      newton{.linear = {.preconditioner = Preconditioner::mumps}};
+  NewtonSettings      newton;
   CheckpointSettings  checkpoint;
   int                 frames = 13;
+
+  // Static systems defeat incomplete factors, and at the peak displacement and phase take many turns.
+  Parameters()
+  {
+    newton.linear.preconditioner        = Preconditioner::mumps;
+    newton.alternation.max_alternations = 1000;
+  }
 
   void declare(ParameterSection &section)
   {
