@@ -71,7 +71,7 @@ struct Parameters
     std::vector<std::string> names;
     for (const auto &scheme : schemes())
       names.push_back(scheme.name);
-    section.choice("problem", problem, {"oscillator", "shell", "plate"}, "what is computed");
+    section.choice("problem", problem, std::vector<std::string>{"oscillator", "shell", "plate"}, "what is computed");
     section.choice("scheme", scheme, names, "implicit integrator; nothing to method: explicit");
     section.choice("method", method, methods(), "how the system of a step is solved");
     section.subsection("plate", plate, "the branching plate");
@@ -240,7 +240,8 @@ void vibrate_shell(const Environment &env, const Parameters &prm)
             auto         result = solver.attempt(state, size);
             if (!result.state)
               throw NoConvergence("vibrating shell at t = " + print(state.time) + ": " + result.failure);
-            StepSummary step{.dt = size, .newton = result.newton};
+            StepSummary step;
+            step.dt            = size;
             step.work          = result.work;
             step.withheld_work = result.withheld_work;
             step.energies      = solver.energies(*result.state);

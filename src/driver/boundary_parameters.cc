@@ -39,16 +39,20 @@ std::optional<Component> component_of(const std::string &name)
 
 void SupportParameters::declare(ParameterSection &section)
 {
-  section.choice("kind", kind, {"fix", "prescribe", "clamp", "prescribe_clamped", "symmetry", "phase_symmetry"},
+  section.choice("kind", kind,
+                 {"fix", "prescribe", "clamp", "prescribe_clamped", "symmetry", "phase_symmetry", "clamp_weakly",
+                  "symmetry_weakly", "phase_symmetry_weakly", "rotate"},
                  "fix: component zero; prescribe: component = displacement(t); clamp: position and tangent plane stay; "
                  "prescribe_clamped: moves without turning; symmetry: lies in a plane of symmetry whose normal is the "
-                 "component; phase_symmetry: the phase is level across the edge");
+                 "component; phase_symmetry: the phase is level across the edge; these weakly: by penalty, for any "
+                 "parameter lines; rotate: turns by angle(t), by penalty");
   section.value("edges", edges, "names of edges that it holds");
   section.value("corner", corner, "names of two edges: it holds the point where they meet");
   section.value("patch", patch, range::at_least(0), "number of a patch that it holds");
   section.value("everywhere", everywhere, "whether it holds the whole surface");
   section.choice("component", component, {"all", "x", "y", "z"}, "component of the displacement");
   section.value("displacement", displacement, "length", "what is prescribed, a formula of time");
+  section.value("angle", angle, "rad", "of rotate, a formula of time; positive towards the outward conormal");
 }
 
 void SupportParameters::add_to(Supports &supports, int dimension, const std::string &place) const
@@ -59,14 +63,20 @@ void SupportParameters::add_to(Supports &supports, int dimension, const std::str
   const bool        moves      = displacement.expression() != "0";
   if (moves && !prescribes)
     throw InvalidParameter(where + " has no displacement, which is given; use prescribe or prescribe_clamped");
+  if ((angle.expression() != "0") != (kind == "rotate"))
+    throw InvalidParameter(where +
+                           (kind == "rotate" ? " needs an angle" : " has no angle, which is given; leave it out"));
+  if (dimension == 2 && (kind == "rotate" || kind == "clamp_weakly" || kind == "symmetry_weakly"))
+    throw InvalidParameter(where + " is for shells, but surface.dimension = 2");
   if (on_edges && (edges.empty() || !corner.empty() || patch || everywhere))
     throw InvalidParameter(where + " is for edges; give them by name, and no corner, patch or everywhere");
   const auto chosen = component_of(component);
   if (dimension == 2 && component == "z")
     throw InvalidParameter(where + ": component = z in the plane, expected all, x or y");
-  if (!chosen && (prescribes || kind == "symmetry"))
+  const bool is_symmetry = kind == "symmetry" || kind == "symmetry_weakly";
+  if (!chosen && (prescribes || is_symmetry))
     throw InvalidParameter(where + " needs a component: x, y or z");
-  if (chosen && (kind == "clamp" || kind == "phase_symmetry"))
+  if (chosen && on_edges && !prescribes && !is_symmetry)
     throw InvalidParameter(where + " has no component, but " + component + " is given; leave it out");
 
   const auto function = [formula = displacement](double t) { return formula(t); };
@@ -89,8 +99,16 @@ void SupportParameters::add_to(Supports &supports, int dimension, const std::str
           supports.prescribe_clamped(edge, *chosen, function);
         else if (kind == "symmetry")
           supports.symmetry(edge, *chosen);
-        else
+        else if (kind == "phase_symmetry")
           supports.phase_symmetry(edge);
+        else if (kind == "clamp_weakly")
+          supports.clamp_weakly(edge);
+        else if (kind == "symmetry_weakly")
+          supports.symmetry_weakly(edge, *chosen);
+        else if (kind == "phase_symmetry_weakly")
+          supports.phase_symmetry_weakly(edge);
+        else
+          supports.rotate(edge, [formula = angle](double t) { return formula(t); });
       }
 }
 
@@ -151,9 +169,8 @@ void LoadParameters::add_to(Loads<spacedim> &loads, double density, const std::s
       else if (kind == "surface_load")
         loads.surface_load(field);
       else if (kind == "gravity")
-        loads.surface_load([field, density](const Point<spacedim> &X, double t) -> Point<spacedim> {
-          return density * field(X, t);
-        });
+        loads.surface_load(
+            [field, density](const Point<spacedim> &X, double t) -> Point<spacedim> { return density * field(X, t); });
       else
         {
           check_size("point", point.size());

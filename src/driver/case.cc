@@ -1,6 +1,5 @@
 #include <sherd/driver/case.h>
 
-#include <set>
 namespace sherd
 {
 
@@ -40,17 +39,12 @@ void Case::resolve()
     time.check_unused();
   else
     time.make_integrator();
-  std::set<std::string> names;
-  for (const auto &point : output.points)
-    if (!names.insert(point.name).second || point.name.empty())
-      throw InvalidParameter("output.points: name \"" + point.name + "\" is " +
-                             (point.name.empty() ? "empty" : "given twice") + "; each point needs a name of its own");
 }
 
 const std::vector<std::string> &model_sections()
 {
-  static const std::vector<std::string> sections{"surface",  "material", "fracture", "regions",
-                                                 "cracks",   "supports", "loads",    "refinement"};
+  static const std::vector<std::string> sections{"surface", "material", "fracture", "regions",
+                                                 "cracks",  "supports", "loads",    "refinement"};
   return sections;
 }
 

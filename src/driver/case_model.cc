@@ -1,5 +1,6 @@
 #include <sherd/driver/case_model.h>
 
+#include <limits>
 #include <numbers>
 
 #include <sherd/geometry/place.h>
@@ -84,7 +85,8 @@ public:
     };
     const auto refuse = [&](bool given, const std::string &name) {
       if (given)
-        throw InvalidParameter(where + ": kind = " + region.kind + " has no " + name + ", which is given; leave it out");
+        throw InvalidParameter(where + ": kind = " + region.kind + " has no " + name +
+                               ", which is given; leave it out");
     };
     if (is_box_)
       {
@@ -93,7 +95,8 @@ public:
         lower_ = vector(region.lower, "lower");
         upper_ = vector(region.upper, "upper");
         if (!(lower_.array() < upper_.array()).all())
-          throw InvalidParameter(where + ": the lower corner of the box is not below the upper one in every coordinate");
+          throw InvalidParameter(where +
+                                 ": the lower corner of the box is not below the upper one in every coordinate");
         return;
       }
     refuse(!region.lower.empty(), "lower");
@@ -180,11 +183,35 @@ StiffnessField<spacedim> make_stiffness(const Case &prm)
   return field_of<spacedim>(prm.material.stiffness, prm, &RegionParameters::stiffness);
 }
 
+namespace
+{
+
+/// The point of the surface closest to @p X. Each patch is searched for itself: the search of a whole surface stays on
+/// the patch of the closest sample, which near an interface may be the wrong one.
+template <int degree, int spacedim>
+Point<spacedim> closest_point(const std::vector<Surface<degree, spacedim>> &patches, const Point<spacedim> &X)
+{
+  Point<spacedim> closest  = Point<spacedim>::Zero();
+  double          distance = std::numeric_limits<double>::infinity();
+  for (const auto &patch : patches)
+    if (const Point<spacedim> Y = position(patch, closest_place(patch, X)); (Y - X).norm() < distance)
+      {
+        closest  = Y;
+        distance = (Y - X).norm();
+      }
+  return closest;
+}
+
+} // namespace
+
 template <int degree, int spacedim>
 PreCrack<spacedim> make_cracks(const Case &prm, const Surface<degree, spacedim> &surface)
 {
-  constexpr int                     pieces = 64; // of each straight one
-  std::vector<Polyline<spacedim>> cracks;
+  constexpr int                          pieces = 64; // of each straight one
+  std::vector<Polyline<spacedim>>        cracks;
+  std::vector<Surface<degree, spacedim>> patches;
+  for (int p = 0; p < surface.n_patches(); ++p)
+    patches.push_back(Surface<degree, spacedim>({surface.patch(p)}, {}));
   for (std::size_t i = 0; i < prm.cracks.size(); ++i)
     {
       const std::string            where = "cracks." + std::to_string(i);
@@ -192,8 +219,8 @@ PreCrack<spacedim> make_cracks(const Case &prm, const Surface<degree, spacedim> 
       for (const auto &point : prm.cracks[i].points)
         {
           if (point.size() != spacedim)
-            throw InvalidParameter(where + ": a point has " + std::to_string(point.size()) +
-                                   " coordinates, expected " + std::to_string(spacedim));
+            throw InvalidParameter(where + ": a point has " + std::to_string(point.size()) + " coordinates, expected " +
+                                   std::to_string(spacedim));
           corners.emplace_back(Eigen::Map<const Point<spacedim>>(point.data()));
         }
       if (prm.cracks[i].on_surface && corners.size() > 1)
@@ -204,7 +231,7 @@ PreCrack<spacedim> make_cracks(const Case &prm, const Surface<degree, spacedim> 
               {
                 const double          t = double(j) / pieces;
                 const Point<spacedim> X = (1. - t) * corners[k] + t * corners[k + 1];
-                dense.push_back(position(surface, closest_place(surface, X)));
+                dense.push_back(closest_point(patches, X));
               }
           corners = std::move(dense);
         }

@@ -53,8 +53,8 @@ Surface<degree, spacedim> read_file(const Environment &env, const shape_paramete
     return read_gismo_xml<degree, spacedim>(env, file.name, file.lower_degree);
   if (extension == ".g2")
     return read_g2<degree, spacedim>(env, file.name, file.lower_degree);
-  throw InvalidParameter("surface.file.name = \"" + file.name + "\", expected a name that ends in .xml (G+Smo) or .g2 " +
-                         "(GoTools)");
+  throw InvalidParameter("surface.file.name = \"" + file.name +
+                         "\", expected a name that ends in .xml (G+Smo) or .g2 " + "(GoTools)");
 }
 
 /// Shapes of the plane and of space.

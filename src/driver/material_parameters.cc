@@ -64,7 +64,7 @@ void MaterialParameters::resolve(int dimension)
       }
     if (!known)
       throw InvalidParameter("material." + name + " = " + law + ", but material.split = " + split +
-                             (shell ? " in space" : " in the plane") + " takes " + list);
+                               (shell ? " in space" : " in the plane") + " takes " + list);
   };
 
   if (split == "none")
@@ -87,9 +87,8 @@ void MaterialParameters::resolve(int dimension)
     throw InvalidParameter("material.bending_part is given, but material.split = " + split +
                            (shell ? "" : " in the plane") +
                            "; only spectral_membrane in space has a choice of what of bending is active");
-  const bool looks_at_layers =
-      shell && (split == "surface_stretch" ||
-                (split == "spectral_membrane" && bending_part == BendingTreatment::layers));
+  const bool          looks_at_layers = shell && (split == "surface_stretch" ||
+                                         (split == "spectral_membrane" && bending_part == BendingTreatment::layers));
   const LayerSettings defaults;
   if (!looks_at_layers &&
       (layers.metric != defaults.metric || layers.cut != defaults.cut || layers.tangent != defaults.tangent))

@@ -66,14 +66,20 @@ public:
     measure(first);
   }
 
-  /// Lets the arm of end @p i start from the closest arm that is not of its patch alone, if one is close enough.
-  void branch(int i, int patch, double radius)
+  /// A place on an arm: on the line to its point number `point`, which is not the first.
+  struct Place
   {
-    const int   own           = arm_of(i);
-    int         best_arm      = -1;
-    std::size_t best_point    = 0;
-    double      best_distance = radius;
-    Vector3d    best_X;
+    int         arm   = -1; ///< none
+    std::size_t point = 0;
+    double      distance;
+    Vector3d    X;
+  };
+
+  /// The place within @p radius of end @p i that is closest to it, on another arm that is not of its patch alone.
+  Place closest_elsewhere(int i, int patch, double radius) const
+  {
+    const int own = arm_of(i);
+    Place     best{.distance = radius};
     for (std::size_t a = 0; a < graph_.arms.size(); ++a)
       {
         const bool elsewhere =
@@ -87,13 +93,21 @@ public:
             const double   square = edge.squaredNorm();
             const double   t      = square > 0. ? std::clamp((X(i) - points[k - 1]).dot(edge) / square, 0., 1.) : 0.;
             const Vector3d place  = points[k - 1] + t * edge;
-            if (const double distance = (X(i) - place).norm(); distance < best_distance)
-              std::tie(best_arm, best_point, best_distance, best_X) =
-                  std::tuple(static_cast<int>(a), k, distance, place);
+            if (const double distance = (X(i) - place).norm(); distance < best.distance)
+              best = {static_cast<int>(a), k, distance, place};
           }
       }
-    if (best_arm < 0)
-      return;
+    return best;
+  }
+
+  /// Lets the arm of end @p i start from a place on another.
+  void branch(int i, const Place &place)
+  {
+    const int         own        = arm_of(i);
+    const int         best_arm   = place.arm;
+    const std::size_t best_point = place.point;
+    const Vector3d    best_X     = place.X;
+    is_whole_[own] = is_whole_[best_arm] = 0;
 
     // The end becomes the branch point; the arm it meets is cut there.
     turn(own, [&](const auto &nodes) { return nodes[1] == i; });
@@ -122,7 +136,6 @@ public:
     graph_.arms.push_back(std::move(rest));
     arm_gone_.push_back(0);
     patches_.push_back(patches_[best_arm]);
-    is_whole_[own] = is_whole_[best_arm] = 0;
     is_whole_.push_back(0);
   }
 
@@ -332,6 +345,9 @@ void join_cracks(CrackGraph &graph, const std::vector<int> &patch_of_arm, const 
     return std::tie(a.same_patch, a.distance, a.first, a.second) <
            std::tie(b.same_patch, b.distance, b.first, b.second);
   });
+  std::vector<int> pieces; // the arm of each end, as long as it is alone
+  for (const auto &end : ends)
+    pieces.push_back(joiner.arm_of(end.node));
   std::vector<char> joined(ends.size(), 0);
   for (const auto &pair : pairs)
     if (!joined[pair.first] && !joined[pair.second])
@@ -339,9 +355,26 @@ void join_cracks(CrackGraph &graph, const std::vector<int> &patch_of_arm, const 
         joined[pair.first] = joined[pair.second] = 1;
         joiner.join(ends[pair.first].node, ends[pair.second].node, distances.trim);
       }
+
+  // A piece goes over a crossing once; where it is joined there already, its other end close by is a tip.
+  std::vector<std::pair<double, std::size_t>> left;
   for (std::size_t i = 0; i < ends.size(); ++i)
     if (!joined[i] && ends[i].patch >= 0)
-      joiner.branch(ends[i].node, ends[i].patch, distances.reach);
+      left.emplace_back(joiner.closest_elsewhere(ends[i].node, ends[i].patch, distances.reach).distance, i);
+  std::sort(left.begin(), left.end());
+  for (const auto &[distance, i] : left)
+    {
+      bool goes_over = false;
+      for (std::size_t j = 0; j < ends.size(); ++j)
+        goes_over |= joined[j] && pieces[j] == pieces[i] && ends[j].crossing == ends[i].crossing;
+      if (goes_over)
+        continue;
+      if (const auto place = joiner.closest_elsewhere(ends[i].node, ends[i].patch, distances.reach); place.arm >= 0)
+        {
+          joined[i] = 1;
+          joiner.branch(ends[i].node, place);
+        }
+    }
   joiner.prune(pruning);
   joiner.finish();
 }

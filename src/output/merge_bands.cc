@@ -56,6 +56,8 @@ public:
     return static_cast<int>(X_.size()) - 1;
   }
 
+  Vector3d &position(int point) { return X_[point]; }
+
   void connect(int a, int b)
   {
     ends_.push_back({a, b});
@@ -131,7 +133,11 @@ public:
     std::set<std::pair<int, int>> links;
     const auto                   &graph = cracks_.graph;
     for (std::size_t n = 0; n < graph.nodes.size(); ++n)
-      vertex_of_node.push_back(vertex(graph.nodes[n].point.X, cracks_.patch_of_node[n]));
+      {
+        vertex_of_node.push_back(vertex(graph.nodes[n].point.X, cracks_.patch_of_node[n]));
+        if (graph.nodes[n].degree == 1)
+          extend(vertex_of_node.back(), graph.nodes[n].point.X);
+      }
     for (std::size_t a = 0; a < graph.arms.size(); ++a)
       {
         const auto      &arm     = graph.arms[a];
@@ -251,6 +257,25 @@ private:
             }
       }
     return found >= 0 ? found : points_.add(X, patch);
+  }
+
+  /// Lets a merged line that ends in a point go on to where the end of a line at @p X is ahead of it: next to the
+  /// middle of its round end, a band is shorter.
+  void extend(int vertex, const Vector3d &X)
+  {
+    const auto found = place_.find(vertex);
+    if (found == place_.end())
+      return;
+    const auto &line   = lines_[found->second.first];
+    const auto &points = runs_[line.run].points;
+    for (const auto &[end, next] : {std::pair(line.places.front(), line.places.front() + 1),
+                                    std::pair(line.places.back(), line.places.back() - 1)})
+      if (line.places[found->second.second] == end)
+        {
+          const Vector3d ahead = (points[end] - points[next]).normalized();
+          Vector3d      &tip   = points_.position(vertex);
+          tip += std::max((X - tip).dot(ahead), 0.) * ahead;
+        }
   }
 
   /// Whether two points are close to each other on one merged line.

@@ -4,12 +4,5 @@ namespace sherd
 {
 
 template class Assembler<models::Plate>;
-template class StepEquations<models::Plate>;
-template class NewtonIteration<models::Plate>;
-template class MonolithicSolver<models::Plate, GeneralizedAlpha>;
-template class MonolithicSolver<models::Plate, AnyIntegrator>;
-template class StaggeredSolver<models::Plate, AnyIntegrator>;
-template class ExplicitSolver<models::Plate>;
-template class MonolithicSolver<models::Plate, Newmark>;
 
 } // namespace sherd

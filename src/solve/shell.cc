@@ -4,12 +4,5 @@ namespace sherd
 {
 
 template class Assembler<models::Shell>;
-template class StepEquations<models::Shell>;
-template class NewtonIteration<models::Shell>;
-template class MonolithicSolver<models::Shell, GeneralizedAlpha>;
-template class MonolithicSolver<models::Shell, AnyIntegrator>;
-template class StaggeredSolver<models::Shell, AnyIntegrator>;
-template class ExplicitSolver<models::Shell>;
-template class StaticSolver<models::Shell>;
 
 } // namespace sherd

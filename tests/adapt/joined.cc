@@ -52,8 +52,10 @@ Outcome run(CrackingPlate &body)
 TEST_CASE("A crack crosses an interface as if it were not there")
 {
   const RefinementSettings refinement{.target = .5, .halo = 1.};
-  CrackingPlate            whole(MPI_COMM_WORLD, refinement);
-  const auto               expected = run(whole);
+  static const auto        expected = [&] {
+    CrackingPlate whole(MPI_COMM_WORLD, refinement);
+    return run(whole);
+  }();
   REQUIRE(expected.tip > 5.);
 
   const auto compare = [&](const Surface<2, 2> &surface, const Continuity &continuity, double tolerance) {
@@ -83,6 +85,6 @@ TEST_CASE("A crack crosses an interface as if it were not there")
   }
   SECTION("at an angle")
   {
-    compare(cut_plate(3., 6., {2, 3}, 6), continuity::Penalty(), .03);
+    compare(cut_plate(2.9, 4.9, {2, 4}, 6), continuity::Penalty(), .03);
   }
 }

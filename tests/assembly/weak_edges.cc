@@ -181,10 +181,11 @@ TEST_CASE("Weak edges: what turns does work, and its rate is that of the forces"
 
 TEST_CASE("Weak edges: the reference surface of a phase field without slope is free of their forces")
 {
-  Supports supports;
-  supports.symmetry_weakly("right", Component::x);
-  supports.clamp_weakly("left");
-  supports.phase_symmetry_weakly("top");
+  const continuity::Penalty factors{1., 1.};
+  Supports                  supports;
+  supports.symmetry_weakly("right", Component::x, factors);
+  supports.clamp_weakly("left", factors);
+  supports.phase_symmetry_weakly("top", factors);
   const WeakRoof roof(MPI_COMM_WORLD, supports, false, 0.);
   CHECK(largest(roof.force(roof.state)) < 1e-13);
   CHECK(roof.energy(roof.state) < 1e-26);

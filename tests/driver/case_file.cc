@@ -44,9 +44,9 @@ TEST_CASE("A case file fills defaults and puts names in their place")
 TEST_CASE("What a case used reads back as the same case")
 {
   auto       prm  = resolved(material + "surface: {shape: polygon, polygon: {sides: 6}}\n"
-                                        "loads: [{edges: [outer], vector: [\"x * t\", \"min(1, t)\"]}]\n"
-                                        "supports: [{kind: prescribe, edges: [outer], component: x, displacement: 2*t}]\n"
-                                        "cracks: [{points: [[0, 0], [0.1, 0.2]]}]\n");
+                                               "loads: [{edges: [outer], vector: [\"x * t\", \"min(1, t)\"]}]\n"
+                                               "supports: [{kind: prescribe, edges: [outer], component: x, displacement: 2*t}]\n"
+                                               "cracks: [{points: [[0, 0], [0.1, 0.2]]}]\n");
   const auto text = used_yaml(ParameterSection::of(prm), {});
   CHECK_THAT(text, Contains("polygon"));
   CHECK_THAT(text, !Contains("tube_radius")); // sections of other shapes are left out
@@ -127,8 +127,8 @@ TEST_CASE("Unknown keys and values in wrong places come with line and nearest na
 
 TEST_CASE("The list names exactly the choices that case files have")
 {
-  Case                                            prm;
-  std::vector<std::pair<std::string, std::string>> declared; // path, "one of a, b"
+  Case                                                                     prm;
+  std::vector<std::pair<std::string, std::string>>                         declared; // path, "one of a, b"
   const std::function<void(const ParameterSection &, const std::string &)> collect =
       [&](const ParameterSection &section, const std::string &path) {
         for (const auto &entry : section.entries())
@@ -153,8 +153,8 @@ TEST_CASE("The list names exactly the choices that case files have")
           CHECK(place != std::string::npos);
           CHECK(!choice.line.empty());
         }
-      const auto n = std::count(expected.begin(), expected.end(), ',') -
-                     (expected.find(" default,") != std::string::npos ? 1 : 0);
+      const auto n =
+          std::count(expected.begin(), expected.end(), ',') - (expected.find(" default,") != std::string::npos ? 1 : 0);
       CHECK(n == static_cast<long>(group.choices.size()));
     }
 }

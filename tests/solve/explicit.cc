@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include <sherd/geometry/split.h>
 #include <sherd/solve/critical_step.h>
 #include <sherd/time/central_difference.h>
 
@@ -46,9 +47,9 @@ double largest_frequency(const Model &model, const ShellSpace<Model::degree, Mod
 {
   constexpr int                                           n_fields = Model::n_fields;
   const SupportedUnknowns<Model::degree, Model::spacedim> supported(supports, space);
-  const Assembler<Model> assembler(model, space, state.distribution, supported.ties());
-  Matrix                 stiffness = assembler.make_matrix(), mass = stiffness;
-  Vector                 force(state.distribution, n_fields), rest = state.acceleration;
+  const Assembler<Model>                                  assembler(model, space, state.distribution, supported.ties());
+  Matrix                                                  stiffness = assembler.make_matrix(), mass = stiffness;
+  Vector force(state.distribution, n_fields), rest = state.acceleration;
   rest.fill(0.);
   assembler.linearise({state.position, rest, state.phase}, state.history, 0., PhaseTangent::consistent, force,
                       stiffness);
@@ -67,8 +68,7 @@ double largest_frequency(const Model &model, const ShellSpace<Model::degree, Mod
       unit.local()[unknowns[j]] = 1.;
       stiffness.multiply(unit, column);
       for (Eigen::Index i = 0; i < n; ++i)
-        A(i, j) =
-            column.local()[unknowns[i]] / std::sqrt(lumped.local()[unknowns[i]] * lumped.local()[unknowns[j]]);
+        A(i, j) = column.local()[unknowns[i]] / std::sqrt(lumped.local()[unknowns[i]] * lumped.local()[unknowns[j]]);
     }
   return std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues()[n - 1]);
 }
@@ -108,7 +108,6 @@ TEST_CASE("The largest explicit step is a safe bound, and not far below the limi
     CAPTURE(bound, limit, bound / limit);
     CHECK(bound <= limit * (1. + 1e-10));
     CHECK(bound > .5 * limit);
-    WARN("bound / limit " << bound / limit);
   };
   for (const auto &supports : {Supports(), held()})
     {
@@ -135,8 +134,8 @@ TEST_CASE("The explicit limit is proportional to h in a membrane and to h^2 in b
 TEST_CASE("Central differences are stable below the limit and not above it")
 {
   // The scheme by itself, so that it may go beyond what the solver allows.
-  Explicit     body(unbreakable.model(), {2., 1.}, {6, 4}, {}, held(), {}, CentralDifference());
-  const double limit = 2. / largest_frequency(body.model, body.space, body.supports, body.state);
+  Explicit                      body(unbreakable.model(), {2., 1.}, {6, 4}, {}, held(), {}, CentralDifference());
+  const double                  limit = 2. / largest_frequency(body.model, body.space, body.supports, body.state);
   const SupportedUnknowns<2, 2> supported(body.supports, body.space);
   const auto                   &assembler = body.solver.assembler();
   Matrix                        matrix    = assembler.make_matrix();
@@ -207,8 +206,8 @@ TEST_CASE("Explicit motion is of second order in time, also under changing steps
     Explicit body(Units{100., .2, 1e10}.model(), {2., 1.}, {3, 2}, {}, held(), {}, CentralDifference());
     for (int a = 0; a < body.state.distribution->n_local(); ++a)
       {
-        const auto X                       = body.reference(a);
-        body.state.velocity.local()[2 * a] = 4. * .3 * X[0] * std::cos(X[1]);
+        const auto X                           = body.reference(a);
+        body.state.velocity.local()[2 * a]     = 4. * .3 * X[0] * std::cos(X[1]);
         body.state.velocity.local()[2 * a + 1] = X[0] * X[0];
       }
     body.solver.set_initial_acceleration(body.state);
@@ -239,7 +238,7 @@ TEST_CASE("Supports are followed and the balance of energy closes")
   body.solver.set_initial_acceleration(body.state);
 
   StepWork     work;
-  const int    n  = static_cast<int>(std::ceil(.02 / (.5 * body.solver.largest_step())));
+  const int    n  = static_cast<int>(std::ceil(.02 / (.2 * body.solver.largest_step())));
   const double dt = .02 / n;
   for (int i = 0; i < n; ++i)
     work += take(body, i % 2 == 0 ? 1.2 * dt : .8 * dt).work;
@@ -260,41 +259,52 @@ TEST_CASE("Supports are followed and the balance of energy closes")
 
 TEST_CASE("An explicit plate tears as an implicit one does")
 {
-  // From rest, opened smoothly within some passages of waves.
-  const auto pull = [](double t) { return 2.5 * t * t; };
+  // From rest, opened smoothly within some passages of waves. A lumped mass makes waves slower: 4 % of the growth here,
+  // 3 % with elements of half the size.
+  const auto pull = [](double t) { return t * t / .24; };
   Supports   supports;
   supports.prescribe("top", Component::y, pull);
   supports.prescribe("bottom", Component::y, [=](double t) { return -pull(t); });
+  struct Outcome
+  {
+    double growth, elastic, work, left; ///< of the crack; at the end; of the supports; what the balance leaves over
+  };
   const auto run = [&](auto &body, double dt) {
     body.crack(PreCrack<2>({Segment<2>{{-3., 3.}, {4., 3.}}}, 1.));
     body.solver.equilibrate_phase(body.state);
     body.solver.set_initial_acceleration(body.state);
     const double start = body.solver.energies(body.state).fracture;
-    const int    n     = static_cast<int>(std::ceil(.09 / dt));
+    const int    n     = static_cast<int>(std::ceil(.06 / dt));
+    double       work = 0., withheld = 0.;
     for (int i = 0; i < n; ++i)
-      take(body, .09 / n);
+      {
+        const auto result = take(body, .06 / n);
+        work += result.work.external.total();
+        withheld += result.withheld_work;
+      }
     const auto e = body.solver.energies(body.state);
-    return std::array{e.fracture - start, e.elastic()};
+    return Outcome{e.fracture - start, e.elastic(), work,
+                   e.elastic() + e.kinetic + e.fracture - start - work + withheld};
   };
-  NewtonSettings settings;
-  Explicit       torn(Units().model(), {8., 6.}, {12, 9}, settings, supports, {}, CentralDifference());
-  const auto     by_forces = run(torn, torn.solver.largest_step());
-  Body<Glass, AnyIntegrator> implicit(Units().model(), {8., 6.}, {12, 9}, settings, supports, {},
-                                      GeneralizedAlpha(.8));
-  const auto                 by_newton = run(implicit, 1e-3);
-  CAPTURE(by_forces[0], by_newton[0], by_forces[1], by_newton[1]);
-  REQUIRE(by_newton[0] > .3);
-  CHECK(by_forces[0] == Approx(by_newton[0]).epsilon(.05));
-  CHECK(by_forces[1] == Approx(by_newton[1]).epsilon(.05));
-  WARN(by_forces[0] << " " << by_newton[0] << " " << by_forces[1] << " " << by_newton[1]);
+  Explicit                   torn(Units().model(), {8., 6.}, {12, 9}, {}, supports, {}, CentralDifference());
+  const auto                 by_forces = run(torn, .2 * torn.solver.largest_step());
+  Body<Glass, AnyIntegrator> implicit(Units().model(), {8., 6.}, {12, 9}, {}, supports, {}, GeneralizedAlpha(.8));
+  const auto                 by_newton = run(implicit, 5e-4);
+  CAPTURE(by_forces.growth, by_newton.growth, by_forces.elastic, by_newton.elastic, by_forces.left, by_newton.left);
+  REQUIRE(by_newton.growth > .5);
+  CHECK(by_forces.growth == Approx(by_newton.growth).epsilon(.06));
+  CHECK(by_forces.elastic == Approx(by_newton.elastic).epsilon(.02));
+  CHECK(std::abs(by_forces.left) < 1e-3 * by_forces.work);
+  CHECK(torn.is_stable());
 }
 
 TEST_CASE("Multipliers have no mass: the explicit solver refuses them")
 {
-  const Environment env(MPI_COMM_WORLD);
-  const auto        surface = split_patches(shapes::plate<2, 3>({1., 1.}, {4, 4}), {2, 1});
-  const models::Shell model(split::SurfaceStretch(material::NeoHooke(1., .6), material::Canham(1e-3), {.thickness = .01}),
-                            degradation::Cubic(1e-4), {}, 1., .2, 1.);
+  const Environment   env(MPI_COMM_WORLD);
+  const auto          surface = split_patches(shapes::plate<2, 3>({1., 1.}, {4, 4}), {2, 1});
+  const models::Shell model(
+      split::SurfaceStretch(material::NeoHooke(1., .6), material::Canham(1e-3), {.thickness = .01}),
+      degradation::Cubic(1e-4), {}, 1., .2, 1.);
   const ShellSpace<2, 3>        space(env, surface, continuity::LagrangeMultiplier());
   const Supports                none;
   const Loads<3>                loads;

@@ -26,9 +26,11 @@ struct Torn : Body<Glass, AnyIntegrator, Solver>
 {
   static Supports pull()
   {
-    Supports supports;
-    supports.prescribe("top", Component::y, [](double t) { return .5 * t; });
-    supports.prescribe("bottom", Component::y, [](double t) { return -.5 * t; });
+    // The speed is reached after 0.02: a jump would be a shock of unlimited acceleration.
+    const auto travel = [](double t) { return .5 * (t < .02 ? t * t / .04 : t - .01); };
+    Supports   supports;
+    supports.prescribe("top", Component::y, travel);
+    supports.prescribe("bottom", Component::y, [=](double t) { return -travel(t); });
     return supports;
   }
 
@@ -53,9 +55,9 @@ struct Torn : Body<Glass, AnyIntegrator, Solver>
     const double before = this->energies().fracture;
     const auto   count  = [&] { return this->solver.timers().statistics(MPI_COMM_WORLD)["assembly"].calls; };
     const auto   start  = count();
-    for (const double dt : {.01, .01, .005, .01})
+    for (int step = 0; step < 6; ++step)
       {
-        const auto result = this->solver.attempt(this->state, dt);
+        const auto result = this->solver.attempt(this->state, .005);
         INFO(result.failure);
         REQUIRE(result.state);
         this->state = *result.state;
@@ -103,14 +105,10 @@ TEST_CASE("All nonlinear solvers find the same steps of a cracking plate")
 
   const auto check = [&](const std::string &name, const auto &other) {
     CAPTURE(name, newton.newton, other.newton, newton.tangents, other.tangents, other.alternations);
-    // The plate is opened by 0.03, the phase falls by about one.
+    // The plate is opened by 0.02, the phase falls by about one.
     CHECK(largest_difference(newton.position, other.position) < 1e-8);
     CHECK(largest_difference(newton.phase, other.phase) < 1e-5);
-    WARN(name << " " << other.newton << " tangents " << other.tangents << " alternations " << other.alternations << " differences "
-              << largest_difference(newton.position, other.position) << " "
-              << largest_difference(newton.phase, other.phase));
   };
-  check("newton", newton);
   const auto line_search = Monolithic(settings(TangentRule::full, Globalisation::line_search), integrator).run();
   check("line search", line_search);
   const auto lagged = Monolithic(settings(TangentRule::lagged_history), integrator).run();
@@ -141,17 +139,17 @@ TEST_CASE("A failed step leaves nothing behind, also after its first stage")
 {
   const auto outcome = [](bool with_failures) {
     Monolithic body(settings(), Bathe());
-    for (const double dt : {.01, .01})
+    for (const double dt : {.005, .005})
       {
         if (with_failures)
           {
             // Supports that go nowhere from the middle of the step on: the first stage succeeds.
-            auto bad     = body.supports;
+            auto bad      = body.supports;
             body.supports = Supports();
             body.supports.prescribe("top", Component::y, [t = body.state.time, dt](double time) {
-              return time > t + .9 * dt ? std::nan("") : .5 * time;
+              return time > t + .9 * dt ? std::nan("") : 0.;
             });
-            body.supports.prescribe("bottom", Component::y, [](double time) { return -.5 * time; });
+            body.supports.prescribe("bottom", Component::y, [](double) { return 0.; });
             body.solver.rebuild(body.state);
             const auto result = body.solver.attempt(body.state, dt);
             CHECK_FALSE(result.state);

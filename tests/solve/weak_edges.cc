@@ -93,46 +93,59 @@ TEST_CASE("Weak edges: a clamped plate with a plane of symmetry")
   CHECK(at_1e3 > limit);
 }
 
+// Where parameter lines cross the plane askew, splines that are level across it have little freedom left along it, so
+// that smaller factors are better on coarse meshes. theory G.5
 TEST_CASE("Weak edges: parameter lines may cross a plane of symmetry at any angle")
 {
+  const continuity::Penalty soft{1e3, 0.};
   CHECK_THROWS_AS(clamped_error<3>(8, strong, 1.), InvalidParameter);
-  const double coarse = clamped_error<3>(8, by_default, 1.), fine = clamped_error<3>(16, by_default, 1.);
-  CAPTURE(coarse, fine);
-  CHECK(std::abs(coarse) < 5e-3);
-  CHECK(std::abs(fine) < 5e-4);
-  CHECK(std::abs(fine) < .3 * std::abs(coarse));
+  const double coarse = clamped_error<3>(8, soft, 1.), fine = clamped_error<3>(16, soft, 1.),
+               stiff = clamped_error<3>(16, by_default, 1.);
+  CAPTURE(coarse, fine, stiff);
+  CHECK(std::abs(coarse) < .03);
+  CHECK(std::abs(fine) < 1e-3);
+  CHECK(std::abs(stiff) < .008);
 }
 
 TEST_CASE("Weak edges: quarter of the Scordelis-Lo roof")
 {
-  // Degree 3, strong: 0.300155, 0.300586 (theory J.2).
+  // Strong, the same elements on a quarter: 0.300586 and 0.300592 for degree 3, 0.3003 for degree 2 (theory J.2).
   const double coarse = weak_roof<3>(8), fine = weak_roof<3>(16), quadratic = weak_roof<2>(16);
   CAPTURE(coarse, fine, quadratic);
-  CHECK(coarse == Approx(.300155).epsilon(3e-4));
-  CHECK(fine == Approx(.300586).epsilon(5e-5));
-  CHECK(quadratic == Approx(.2961).epsilon(3e-3));
+  CHECK(coarse == Approx(.300586).epsilon(2e-5));
+  CHECK(fine == Approx(.300592).epsilon(2e-5));
+  CHECK(quadratic == Approx(.3003).epsilon(3e-4));
 }
 
-TEST_CASE("Weak edges: a strip whose end is turned by 360 degrees becomes a circle")
+// A penalty is a spring of stiffness eps = beta D / h: the strip turns by less than its edge is asked to.
+TEST_CASE("Weak edges: a strip whose end is turned becomes an arc of a circle")
 {
-  constexpr double length = 12., thickness = .1;
+  constexpr double length = 12., thickness = .1, modulus = 1.2e6, beta = 1e2;
+  constexpr int    n = 12;
   Supports         supports;
-  supports.clamp_weakly("left");
-  supports.rotate("right", [](double t) { return 2. * M_PI * t; });
-  KoiterBody<3>       body(1.2e6, 0., thickness, shapes::plate<3, 3>({length, 1.}, {24, 1}), supports, {});
-  std::vector<double> passed;
-  auto                state = body.state;
-  for (const double target : {.25, .5, .75, 1.})
+  supports.clamp("left");
+  supports.rotate("right", [](double t) { return M_PI * t; }, {beta, 0.});
+  KoiterBody<3> body(modulus, 0., thickness, shapes::plate<3, 3>({length, 1.}, {n, 1}), supports, {});
+  const double  D = modulus * thickness * thickness * thickness / 12., eps = beta * D * n / length;
+  auto          state        = body.state;
+  int           n_iterations = 0;
+  for (const double target : {.5, 1.})
     {
-      state = follow_loads(body.solver, state, target, LoadStepSettings{.first = .025, .largest = .05},
-                           [](const auto &, int) {});
-      // Stationary in the stretch s at s^2 = 1 - T^2 theta'^2 / 6 with the turn theta' by reference length.
-      const double angle = 2. * M_PI * target, turn = angle / length;
-      const double stretch = std::sqrt(1. - thickness * thickness * turn * turn / 6.), radius = stretch / turn;
-      const auto   u = body.displacement(state, 24., .5);
-      CAPTURE(target);
-      CHECK(u[0] + length == Approx(radius * std::sin(angle)).margin(3e-4));
-      CHECK(-u[2] == Approx(radius * (1. - std::cos(angle))).margin(3e-4)); // towards -n
+      state = follow_loads(body.solver, state, target, LoadStepSettings{.first = .05, .largest = .1},
+                           [&](const auto &, int iterations) { n_iterations += iterations; });
+      // Koiter's energy E T (s^2 - 1)^2 / 8 + D (s theta')^2 / 2 of an arc with the turn theta' by reference length is
+      // stationary in the stretch s at s^2 = 1 - T^2 theta'^2 / 6 and carries the moment D s^2 theta'.
+      double angle = M_PI * target, stretch = 1.;
+      for (int i = 0; i < 30; ++i)
+        {
+          stretch = std::sqrt(1. - std::pow(thickness * angle / length, 2) / 6.);
+          angle   = M_PI * target - std::asin(D * stretch * stretch * angle / length / eps);
+        }
+      const double radius = stretch * length / angle;
+      const auto   u      = body.displacement(state, n, .5);
+      CAPTURE(target, u[0] + length, radius * std::sin(angle), -u[2], radius * (1. - std::cos(angle)), n_iterations);
+      CHECK(u[0] + length == Approx(radius * std::sin(angle)).margin(2e-3));
+      CHECK(-u[2] == Approx(radius * (1. - std::cos(angle))).margin(2e-3)); // towards -n
       CHECK(std::abs(u[1]) <= 1e-6);
     }
 }
@@ -160,9 +173,11 @@ TEST_CASE("Weak edges: an edge that turns does the work that the strip takes up"
       INFO(result.failure);
       REQUIRE(result.state);
       state = std::move(*result.state);
-      books.add({.energies      = solver.energies(state),
-                 .external_work = result.external_work,
-                 .withheld_work = result.withheld_work});
+      StepSummary summary;
+      summary.energies      = solver.energies(state);
+      summary.work          = result.work;
+      summary.withheld_work = result.withheld_work;
+      books.add(summary);
     }
   const auto energies = solver.energies(state);
   CAPTURE(books.external_work(), energies.elastic(), energies.kinetic, energies.constraint, books.balance());
@@ -182,5 +197,5 @@ TEST_CASE("Weak edges: a crack that hits a plane of symmetry costs what that of 
   CAPTURE(whole, half, weak, natural);
   CHECK(half == Approx(whole).epsilon(1e-5));
   CHECK(weak == Approx(whole).epsilon(1e-3));
-  CHECK(natural < .99 * whole);
+  CHECK(natural < .995 * whole);
 }

@@ -145,7 +145,9 @@ EnergyBalance follow(const Environment &env, Solver &solver, State<2, 3> &state,
             controller.reject(result.failure, dt);
           continue;
         }
-      StepSummary step{.dt = dt, .newton = result.newton, .error = result.error};
+      StepSummary step;
+      step.dt            = dt;
+      step.newton        = result.newton;
       step.work          = result.work;
       step.withheld_work = result.withheld_work;
       step.energies      = solver.energies(*result.state);

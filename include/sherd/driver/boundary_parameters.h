@@ -22,6 +22,7 @@ struct SupportParameters
   bool                     everywhere   = false;
   std::string              component    = "all";
   Formula                  displacement = Formula("0", {"t"});
+  Formula                  angle        = Formula("0", {"t"});
 
   void declare(ParameterSection &section);
 

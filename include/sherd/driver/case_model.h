@@ -14,8 +14,8 @@ namespace sherd
 /// The model of a case: everything that can be chosen by name is chosen at run time, so that one compiled kernel for
 /// each degree and dimension serves all of them, and splits of a user too.
 template <int degree, int spacedim>
-using CaseModel = BrittleShell<degree, spacedim, split::Any<spacedim>, degradation::Any, crack_density::Any,
-                               irreversibility::Any>;
+using CaseModel =
+    BrittleShell<degree, spacedim, split::Any<spacedim>, degradation::Any, crack_density::Any, irreversibility::Any>;
 
 /// The split of a case with its laws.
 /// @pre names resolved (MaterialParameters::resolve)
@@ -38,14 +38,9 @@ StiffnessField<spacedim> make_stiffness(const Case &prm);
 template <int degree, int spacedim>
 CaseModel<degree, spacedim> make_model(const Case &prm)
 {
-  return {make_split<spacedim>(prm.material),
-          prm.fracture.degradation.make(),
-          prm.fracture.make_crack_density(),
-          make_toughness<spacedim>(prm),
-          prm.fracture.length_scale,
-          prm.material.density,
-          prm.fracture.make_irreversibility(),
-          make_stiffness<spacedim>(prm)};
+  return {make_split<spacedim>(prm.material),  prm.fracture.degradation.make(), prm.fracture.make_crack_density(),
+          make_toughness<spacedim>(prm),       prm.fracture.length_scale,       prm.material.density,
+          prm.fracture.make_irreversibility(), make_stiffness<spacedim>(prm)};
 }
 
 /// The cracks of a case; those that are to be on the surface are moved to its closest points.

@@ -45,8 +45,8 @@ public:
   const ShellSpace<degree, spacedim> &space() const { return solver_->space(); }
   const Loads<spacedim>              &loads() const { return solver_->loads(); }
   Energies                            energies(const StateType &state) const { return solver_->energies(state); }
-  Point<spacedim> reaction(const std::string &edge) const { return solver_->reaction(edge); }
-  PhaseTimers    &timers() { return solver_->timers(); }
+  Point<spacedim>                     reaction(const std::string &edge) const { return solver_->reaction(edge); }
+  PhaseTimers                        &timers() { return solver_->timers(); }
 
   /// c_R where steps are bounded by it, 0 otherwise.
   double rayleigh_speed() const { return bounds_.by_waves ? solver_->rayleigh_speed() : 0.; }
@@ -56,20 +56,20 @@ public:
 private:
   struct Interface
   {
-    virtual ~Interface()                                                               = default;
-    virtual void                                rebuild(const StateType &)             = 0;
-    virtual void                                equilibrate_phase(StateType &)         = 0;
-    virtual void                                set_initial_acceleration(StateType &)  = 0;
-    virtual Result                              attempt(const StateType &, double)     = 0;
-    virtual const Model                        &model() const                          = 0;
-    virtual const Assembler<Model>             &assembler() const                      = 0;
-    virtual const ShellSpace<degree, spacedim> &space() const                          = 0;
-    virtual Energies                            energies(const StateType &) const      = 0;
-    virtual Point<spacedim>                     reaction(const std::string &) const    = 0;
-    virtual const Loads<spacedim>              &loads() const                          = 0;
-    virtual double                              rayleigh_speed() const                 = 0;
-    virtual double                              largest_step() const                   = 0;
-    virtual PhaseTimers                        &timers()                               = 0;
+    virtual ~Interface()                                                              = default;
+    virtual void                                rebuild(const StateType &)            = 0;
+    virtual void                                equilibrate_phase(StateType &)        = 0;
+    virtual void                                set_initial_acceleration(StateType &) = 0;
+    virtual Result                              attempt(const StateType &, double)    = 0;
+    virtual const Model                        &model() const                         = 0;
+    virtual const Assembler<Model>             &assembler() const                     = 0;
+    virtual const ShellSpace<degree, spacedim> &space() const                         = 0;
+    virtual Energies                            energies(const StateType &) const     = 0;
+    virtual Point<spacedim>                     reaction(const std::string &) const   = 0;
+    virtual const Loads<spacedim>              &loads() const                         = 0;
+    virtual double                              rayleigh_speed() const                = 0;
+    virtual double                              largest_step() const                  = 0;
+    virtual PhaseTimers                        &timers()                              = 0;
   };
 
   template <class Solver>
@@ -84,12 +84,12 @@ private:
     const Model            &model() const override { return s->model(); }
     const Assembler<Model> &assembler() const override { return s->assembler(); }
     const ShellSpace<degree, spacedim> &space() const override { return s->space(); }
-    Energies        energies(const StateType &state) const override { return s->energies(state); }
-    Point<spacedim> reaction(const std::string &edge) const override { return s->reaction(edge); }
-    const Loads<spacedim> &loads() const override { return s->loads(); }
-    double          rayleigh_speed() const override { return s->rayleigh_speed(); }
-    double          largest_step() const override { return s->largest_step(); }
-    PhaseTimers    &timers() override { return s->timers(); }
+    Energies                            energies(const StateType &state) const override { return s->energies(state); }
+    Point<spacedim>                     reaction(const std::string &edge) const override { return s->reaction(edge); }
+    const Loads<spacedim>              &loads() const override { return s->loads(); }
+    double                              rayleigh_speed() const override { return s->rayleigh_speed(); }
+    double                              largest_step() const override { return s->largest_step(); }
+    PhaseTimers                        &timers() override { return s->timers(); }
 
     std::unique_ptr<Solver> s;
   };

@@ -31,9 +31,9 @@ enum class BendingTreatment
 /// Elastic constants, energy split and laws of a case.
 struct MaterialParameters
 {
-  std::string           split    = "surface_stretch";
-  std::string           membrane = "default";
-  std::string           bending  = "default";
+  std::string           split        = "surface_stretch";
+  std::string           membrane     = "default";
+  std::string           bending      = "default";
   BendingTreatment      bending_part = BendingTreatment::layers;
   LayerSettings         layers;
   int                   layer_points = 0;

@@ -9,6 +9,7 @@
 #include <sherd/driver/make_surface.h>
 #include <sherd/driver/run_case.h>
 #include <sherd/driver/stop_criteria.h>
+#include <sherd/output/probes.templates.h>
 #include <sherd/output/recorded_run.h>
 
 namespace sherd
@@ -87,6 +88,8 @@ public:
     recording_.frames   = prm.output.frames;
     recording_.points   = internal::make_probes<spacedim>(prm.output);
     recording_.edges    = prm.output.reactions;
+    internal::probe_columns(recording_.points, recording_.edges);
+    internal::probe_places(blank_, recording_.points);
   }
 
   /// Builds what a run builds first on the mesh before refinement: formulas, edges and points are evaluated.
@@ -98,15 +101,16 @@ public:
     solver.assembler().evaluate(loads_, 0.);
     for (const auto &support : supports_.list())
       support.displacement(0.);
+    const Adaptivity<Model> adaptivity(blank_, prm_.refinement);
+    const StepController    controller(prm_.time.steps);
+    restart_checkpoint(env_, blank_); // with --restart
     on_root(env_.comm(), [&] {
-      for (const auto &probe : recording_.points)
-        closest_place(blank_, probe.X);
       std::cout << "input is valid: " << prm_.surface.shape << ", " << surface_.n_patches()
                 << (surface_.n_patches() == 1 ? " patch" : " patches") << ", degree " << degree << ", "
                 << surface_.n_elements() << " elements and " << space_.n_unknowns()
                 << " unknowns before refinement; split " << prm_.material.split << " with " << prm_.material.membrane
-                << (spacedim == 3 ? " and " + prm_.material.bending : "") << "; " << prm_.time.integrator << " up to t = "
-                << prm_.time.end << std::endl;
+                << (spacedim == 3 ? " and " + prm_.material.bending : "") << "; " << prm_.time.integrator
+                << " up to t = " << prm_.time.end << std::endl;
     });
   }
 
@@ -185,7 +189,7 @@ private:
 template <int degree, int spacedim>
 void run_case(const Environment &env, const Case &prm)
 {
-  const OutputDirectory              directory(env);
+  const OutputDirectory          directory(env);
   PreparedCase<degree, spacedim> prepared(env, prm);
   if (env.command_line().check)
     return prepared.check();

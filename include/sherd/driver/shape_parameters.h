@@ -268,8 +268,7 @@ struct File
   void declare(ParameterSection &section)
   {
     section.value("name", name, "file, .xml of G+Smo or .g2 of GoTools, as seen from the working directory");
-    section.choice("lower_degree", lower_degree,
-                   {{"refuse", LowerDegree::refuse}, {"elevate", LowerDegree::elevate}},
+    section.choice("lower_degree", lower_degree, {{"refuse", LowerDegree::refuse}, {"elevate", LowerDegree::elevate}},
                    "what to do with patches of a lower degree than surface.degree");
   }
 };

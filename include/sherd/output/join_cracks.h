@@ -29,9 +29,10 @@ std::vector<int> connected_parts(const std::vector<Eigen::Vector3d> &points, dou
 /// Joins cracks that interfaces cut.  theory L
 ///
 /// Pairs of ends of one crossing and different patches are joined, the closest first: both arms are cut back by the
-/// trim, at most by half their length, and continue each other in a straight line. An end that is left over branches
-/// from the closest arm of another patch, as where side arms too short to count in their patch go on in the next; if
-/// there is none, it stays an end, as an end on an interface does. Then side arms and bridges between branch points
+/// trim, at most by half their length, and continue each other in a straight line. A piece that is not joined at a
+/// crossing branches there from the closest arm of another patch, as where side arms too short to count in their patch go
+/// on in the next. All other ends stay ends: those on an interface, and the tips of pieces so short that both of their
+/// ends are at one crossing. Then side arms and bridges between branch points
 /// that were cut by interfaces are noise, by the same limits as those inside of a patch.
 /// @param patch_of_arm   shape=(n_arms); -1: at least in part on an interface
 /// @param self_joined    1 for each patch that is joined to itself; its ends may be joined with each other

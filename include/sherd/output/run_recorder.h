@@ -26,10 +26,10 @@ struct RecorderSettings
   CrackOptions                      crack;
   double                            end_time;
   int                               frames = 40; ///< evenly spaced in time, beside the first
-  std::vector<PointProbe<spacedim>> points;      ///< for probes.csv
-  std::vector<std::string>          edges;       ///< for probes.csv: reactions
-  std::vector<double>               times;       ///< of frames beside those; steps have to end exactly there
-  std::vector<std::string>          loads;       ///< for work.csv: their names, as the solver knows them
+  std::vector<PointProbe<spacedim>> points = {}; ///< for probes.csv
+  std::vector<std::string>          edges  = {}; ///< for probes.csv: reactions
+  std::vector<double>               times  = {}; ///< of frames beside those; steps have to end exactly there
+  std::vector<std::string>          loads  = {}; ///< for work.csv: their names, as the solver knows them
 
   /// Time of evenly spaced frame @p k.
   double frame_time(int k) const { return end_time / frames * k; }

@@ -22,7 +22,7 @@ void ExplicitSolver<Model>::rebuild(const StateType &state)
   Base::rebuild(state);
   const auto timing = this->timers().measure("set-up");
   this->assembler().mass_matrix(this->newton_.matrix());
-  mass_                = lumped_mass(this->newton_.matrix());
+  mass_                 = lumped_mass(this->newton_.matrix());
   const auto &supported = this->equations_.supported();
   for (std::size_t k = 0; k < supported.fixed().size(); ++k)
     if (supported.fixed()[k] && !supported.is_held(k))
@@ -36,12 +36,12 @@ template <class Model>
 void ExplicitSolver<Model>::estimate_largest_step(const StateType &state)
 {
   const auto timing = this->timers().measure("stable step");
-  Vector     force(state.distribution, n_fields), rest = state.acceleration;
+  Vector     force(state.distribution, n_fields), external = force, rest = state.acceleration;
   rest.fill(0.);
   auto &stiffness = this->newton_.matrix();
   this->newton_.forget_tangent();
-  this->assembler().linearise({state.position, rest, state.phase}, state.history, 0., PhaseTangent::consistent, force,
-                              stiffness);
+  this->assembler().linearise({state.position, rest, state.phase}, state.history, 0., PhaseTangent::consistent,
+                              this->assembler().evaluate(this->loads(), state.time), force, external, stiffness);
   std::vector<char> free = this->equations_.supported().fixed();
   for (std::size_t k = 0; k < free.size(); ++k)
     free[k] = free[k] || k % n_fields == spacedim ? 0 : 1;

@@ -10,8 +10,8 @@
 namespace sherd::split
 {
 
-/// A split with its laws that is chosen at run time, for programs that read their names: one compiled kernel serves all,
-/// those of a user too.
+/// A split with its laws that is chosen at run time, for programs that read their names: one compiled kernel serves
+/// all, those of a user too.
 ///
 /// A program that knows its split names that type instead, and pays nothing for the choice: here each quadrature point
 /// is a call that computes all of the response.
@@ -42,10 +42,10 @@ public:
 private:
   struct Interface
   {
-    virtual ~Interface()                                                              = default;
+    virtual ~Interface()                                                               = default;
     virtual SplitResponse<spacedim> respond(const SurfacePoint<spacedim> &point) const = 0;
-    virtual double                  bulk() const                                      = 0;
-    virtual double                  shear() const                                     = 0;
+    virtual double                  bulk() const                                       = 0;
+    virtual double                  shear() const                                      = 0;
   };
 
   template <class Split>
