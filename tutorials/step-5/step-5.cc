@@ -38,9 +38,9 @@ struct Parameters
   NewtonSettings      newton{.displacement_tolerance = 1e-8,
                              .phase_tolerance        = 1e-9,
                              .max_iterations         = 40,
-                             .linear                 = {.preconditioner = Preconditioner::mumps},
                              .line_search            = {},
-                             .alternation            = {}};
+                             .alternation            = {},
+                             .linear                 = {.preconditioner = Preconditioner::mumps}};
 
   void declare(ParameterSection &section)
   {
