@@ -2,12 +2,15 @@
 //
 // The paper's second example (its section 3.2): a closed sphere of six patches, inflated suddenly, with a small crack
 // in it. The crack runs, forks again and again, and its branches meet until the sphere has come apart. New here: a
-// surface of many patches, and what keeps it smooth across their interfaces. Run:     mpirun -np 2 ./step-11 demo.yaml
-// --output output-penalty
+// surface of many patches, and what keeps it smooth across their interfaces.
+//
+// Run:     mpirun -np 2 ./step-11 demo.yaml --output output-penalty
 //          mpirun -np 2 ./step-11 demo.yaml --set balloon.continuity=lagrange_multiplier --output output-multiplier
 //          ./step-11 quick.yaml
 //          ./step-11 --restart output-penalty/checkpoint.h5   (goes on, on any number of ranks)
-// Expect:  history.csv, tips.csv, frames in the output directory; pictures by scripts/figures output-penalty
+// Expect:  history.csv, tips.csv, frames in the output directory; pictures by
+//          scripts/figures output-penalty --opacity 0.5 --patch-lines --threshold 0.005
+//          scripts/compare-runs output-penalty output-multiplier
 // Units:   those of the paper: lengths in L0, moduli in E0 (force by length, theory B.3), time in T0
 #include <sherd/adapt/adaptivity.h>
 #include <sherd/base/output_directory.h>
