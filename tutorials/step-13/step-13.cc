@@ -3,7 +3,9 @@
 // A curved panel with a notch is pulled apart suddenly and tears around its circumference, on as many ranks as you
 // like. Half-way a checkpoint is written, and the second half is computed twice: by the ranks that are at it, and by
 // fewer of them from the checkpoint. New here: who has what, what a checkpoint holds, and how much the number of ranks
-// matters. Run:     mpirun -np 2 ./step-13 demo.yaml --output output-demo --profile
+// matters.
+//
+// Run:     mpirun -np 2 ./step-13 demo.yaml --output output-demo --profile
 //          mpirun -np 3 ./step-13 quick.yaml
 //          mpirun -np 5 ./step-13 --restart output-demo/checkpoint.h5
 // Expect:  on the terminal the shares of the ranks and the comparison; history.csv, tips.csv, frames in the output

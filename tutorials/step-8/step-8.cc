@@ -2,7 +2,9 @@
 //
 // A sheet with a short notch is pulled apart slowly; two regions of it are ten times as tough. The crack that bursts
 // out of the notch branches in front of the first one. New here: a toughness that depends on position, and edges that
-// move. Run:     ./step-8 demo.yaml --output output-demo
+// move.
+//
+// Run:     ./step-8 demo.yaml --output output-demo
 //          mpirun -np 2 ./step-8 quick.yaml
 //          ./step-8 --restart output-demo/checkpoint.h5    (goes on, on any number of ranks)
 // Expect:  history.csv, tips.csv, frames in the output directory; pictures by scripts/figures output-demo --animate
