@@ -26,7 +26,7 @@ double same_side(const Point<spacedim> &a_1, const Point<spacedim> &a_2, const P
 ///
 /// @param before, after   positions, shape=(spacedim, n_b)
 ///
-/// Source: theory C.2 (a converged state is not yet a correct one).
+/// Source: theory F.4 (elements inside out).
 template <class Model>
 bool keeps_orientation(const ElementData<Model> &data, const decltype(ElementFields<Model>::position) &before,
                        const decltype(ElementFields<Model>::position) &after)
