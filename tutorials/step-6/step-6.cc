@@ -210,7 +210,8 @@ void load_plate(const Environment &env, const Parameters &prm, const AnyIntegrat
 // Without inertia time only orders the loads, and the solver has to find the next equilibrium by itself. Up to the peak
 // it is nearby. There the crack runs through the plate while the load stands still: the next equilibrium is that of a
 // parted plate, and Newton's method, for which the energy of both fields together is not convex, is not expected
-// to get there. Displacement and phase in turn do: each half is a convex problem, and hundreds of turns carry the crack through.
+// to get there. Displacement and phase in turn do: each half is a convex problem, and hundreds of turns carry the crack
+// through.
 //
 // The other way out is that of nature: with inertia there is always a next state. Backward Euler damps all that is fast
 // against the step, so that large steps see no waves and stay in equilibrium, while at the peak the steps shrink to the
