@@ -91,7 +91,8 @@ fs::path OutputDirectory::frame(int n) const
 const std::vector<std::string> &result_files()
 {
   static const std::vector<std::string> names{"used.yaml",    "history.csv", "tips.csv",  "probes.csv",
-                                              "summary.json", "frames.pvd",  "fields.h5", "checkpoint.h5"};
+                                              "summary.json", "frames.pvd",  "fields.h5", "checkpoint.h5",
+                                              "path.csv",     "modes.csv"};
   return names;
 }
 

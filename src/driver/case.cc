@@ -13,13 +13,22 @@ void Case::declare(ParameterSection &section)
   section.list("supports", supports, "what is held or moved; where regions meet, the last one holds");
   section.list("loads", loads, "what pulls and presses");
   section.subsection("time", time, "time integration");
-  section.choice("solver", solver,
-                 {{"monolithic", SolverChoice::monolithic},
-                  {"staggered", SolverChoice::staggered},
-                  {"explicit", SolverChoice::explicit_}},
-                 "displacement and phase together, alternately, or explicit with integrator central_difference");
+  section.choice(
+      "solver", solver,
+      {{"monolithic", SolverChoice::monolithic},
+       {"staggered", SolverChoice::staggered},
+       {"explicit", SolverChoice::explicit_},
+       {"arc_length", SolverChoice::arc_length},
+       {"modes", SolverChoice::modes}},
+      "displacement and phase together, alternately, or explicit with integrator central_difference; without "
+      "crack growth: equilibria along the arc of their path, or free vibrations");
   section.subsection("newton", newton, "nonlinear and linear solver");
+  section.subsection("statics", statics, "equilibria of solver arc_length");
+  section.subsection("arc_length", arc_length, "steps of solver arc_length; time is the load factor");
+  section.subsection("modes", modes, "vibrations of solver modes; eigenvalues are omega^2");
   section.subsection("refinement", refinement, "where the mesh is refined");
+  section.list("fine_mesh", fine_mesh,
+               "lines along which the mesh is fine from the start, where a crack will run at once");
   section.subsection("stop", stop, "what ends the run before its end time");
   section.subsection("output", output, "what is written");
   section.subsection("checkpoint", checkpoint, "when a state to go on from is written");
@@ -35,6 +44,14 @@ void Case::resolve()
     throw InvalidParameter("time.integrator = " + time.integrator + " with " +
                            (solver == SolverChoice::explicit_ ? "solver = explicit" : "an implicit solver") +
                            "; central_difference and solver = explicit belong together");
+  const bool rests = solver == SolverChoice::arc_length || solver == SolverChoice::modes;
+  if (solver == SolverChoice::arc_length && time.integrator != "quasi_static")
+    throw InvalidParameter("time.integrator = " + time.integrator +
+                           " with solver = arc_length, which follows equilibria; use quasi_static");
+  if (rests && (!stop.crack_at.empty() || stop.crack_length || stop.elastic_share))
+    throw InvalidParameter(
+        "stop: with solver = arc_length and modes no crack grows; the path ends at time.end or after "
+        "stop.steps");
   if (solver == SolverChoice::explicit_)
     time.check_unused();
   else
@@ -43,8 +60,8 @@ void Case::resolve()
 
 const std::vector<std::string> &model_sections()
 {
-  static const std::vector<std::string> sections{"surface", "material", "fracture", "regions",
-                                                 "cracks",  "supports", "loads",    "refinement"};
+  static const std::vector<std::string> sections{"surface",  "material", "fracture",   "regions",  "cracks",
+                                                 "supports", "loads",    "refinement", "fine_mesh"};
   return sections;
 }
 

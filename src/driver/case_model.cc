@@ -1,6 +1,5 @@
 #include <sherd/driver/case_model.h>
 
-#include <limits>
 #include <numbers>
 
 #include <sherd/geometry/place.h>
@@ -186,20 +185,39 @@ StiffnessField<spacedim> make_stiffness(const Case &prm)
 namespace
 {
 
-/// The point of the surface closest to @p X. Each patch is searched for itself: the search of a whole surface stays on
-/// the patch of the closest sample, which near an interface may be the wrong one.
 template <int degree, int spacedim>
-Point<spacedim> closest_point(const std::vector<Surface<degree, spacedim>> &patches, const Point<spacedim> &X)
+Polyline<spacedim> make_line(const CrackParameters &line, const Surface<degree, spacedim> &surface,
+                             const std::string &where)
 {
-  Point<spacedim> closest  = Point<spacedim>::Zero();
-  double          distance = std::numeric_limits<double>::infinity();
-  for (const auto &patch : patches)
-    if (const Point<spacedim> Y = position(patch, closest_place(patch, X)); (Y - X).norm() < distance)
-      {
-        closest  = Y;
-        distance = (Y - X).norm();
-      }
-  return closest;
+  constexpr int                pieces = 64; // of each straight one
+  std::vector<Point<spacedim>> corners;
+  for (const auto &point : line.points)
+    {
+      if (point.size() != spacedim)
+        throw InvalidParameter(where + ": a point has " + std::to_string(point.size()) + " coordinates, expected " +
+                               std::to_string(spacedim));
+      corners.emplace_back(Eigen::Map<const Point<spacedim>>(point.data()));
+    }
+  if (line.on_surface && corners.size() > 1)
+    {
+      std::vector<Point<spacedim>> dense;
+      for (std::size_t k = 0; k + 1 < corners.size(); ++k)
+        for (int j = k == 0 ? 0 : 1; j <= pieces; ++j)
+          {
+            const double          t = double(j) / pieces;
+            const Point<spacedim> X = (1. - t) * corners[k] + t * corners[k + 1];
+            dense.push_back(position(surface, closest_place(surface, X)));
+          }
+      corners = std::move(dense);
+    }
+  try
+    {
+      return Polyline<spacedim>(std::move(corners));
+    }
+  catch (const InvalidParameter &error)
+    {
+      throw InvalidParameter(where + ": " + error.what());
+    }
 }
 
 } // namespace
@@ -207,55 +225,36 @@ Point<spacedim> closest_point(const std::vector<Surface<degree, spacedim>> &patc
 template <int degree, int spacedim>
 PreCrack<spacedim> make_cracks(const Case &prm, const Surface<degree, spacedim> &surface)
 {
-  constexpr int                          pieces = 64; // of each straight one
-  std::vector<Polyline<spacedim>>        cracks;
-  std::vector<Surface<degree, spacedim>> patches;
-  for (int p = 0; p < surface.n_patches(); ++p)
-    patches.push_back(Surface<degree, spacedim>({surface.patch(p)}, {}));
+  std::vector<Polyline<spacedim>> cracks;
   for (std::size_t i = 0; i < prm.cracks.size(); ++i)
-    {
-      const std::string            where = "cracks." + std::to_string(i);
-      std::vector<Point<spacedim>> corners;
-      for (const auto &point : prm.cracks[i].points)
-        {
-          if (point.size() != spacedim)
-            throw InvalidParameter(where + ": a point has " + std::to_string(point.size()) + " coordinates, expected " +
-                                   std::to_string(spacedim));
-          corners.emplace_back(Eigen::Map<const Point<spacedim>>(point.data()));
-        }
-      if (prm.cracks[i].on_surface && corners.size() > 1)
-        {
-          std::vector<Point<spacedim>> dense;
-          for (std::size_t k = 0; k + 1 < corners.size(); ++k)
-            for (int j = k == 0 ? 0 : 1; j <= pieces; ++j)
-              {
-                const double          t = double(j) / pieces;
-                const Point<spacedim> X = (1. - t) * corners[k] + t * corners[k + 1];
-                dense.push_back(closest_point(patches, X));
-              }
-          corners = std::move(dense);
-        }
-      try
-        {
-          cracks.emplace_back(std::move(corners));
-        }
-      catch (const InvalidParameter &error)
-        {
-          throw InvalidParameter(where + ": " + error.what());
-        }
-    }
+    cracks.push_back(make_line(prm.cracks[i], surface, "cracks." + std::to_string(i)));
   return PreCrack<spacedim>(std::move(cracks), prm.fracture.length_scale);
 }
 
-template Toughness<2>      make_toughness(const Case &);
-template Toughness<3>      make_toughness(const Case &);
-template StiffnessField<2> make_stiffness(const Case &);
-template StiffnessField<3> make_stiffness(const Case &);
-template PreCrack<2>       make_cracks(const Case &, const Surface<2, 2> &);
-template PreCrack<2>       make_cracks(const Case &, const Surface<3, 2> &);
-template PreCrack<2>       make_cracks(const Case &, const Surface<4, 2> &);
-template PreCrack<3>       make_cracks(const Case &, const Surface<2, 3> &);
-template PreCrack<3>       make_cracks(const Case &, const Surface<3, 3> &);
-template PreCrack<3>       make_cracks(const Case &, const Surface<4, 3> &);
+template <int degree, int spacedim>
+std::vector<Polyline<spacedim>> make_fine_lines(const Case &prm, const Surface<degree, spacedim> &surface)
+{
+  std::vector<Polyline<spacedim>> lines;
+  for (std::size_t i = 0; i < prm.fine_mesh.size(); ++i)
+    lines.push_back(make_line(prm.fine_mesh[i].line, surface, "fine_mesh." + std::to_string(i)));
+  return lines;
+}
+
+template Toughness<2>             make_toughness(const Case &);
+template Toughness<3>             make_toughness(const Case &);
+template StiffnessField<2>        make_stiffness(const Case &);
+template StiffnessField<3>        make_stiffness(const Case &);
+template PreCrack<2>              make_cracks(const Case &, const Surface<2, 2> &);
+template PreCrack<2>              make_cracks(const Case &, const Surface<3, 2> &);
+template PreCrack<2>              make_cracks(const Case &, const Surface<4, 2> &);
+template PreCrack<3>              make_cracks(const Case &, const Surface<2, 3> &);
+template PreCrack<3>              make_cracks(const Case &, const Surface<3, 3> &);
+template PreCrack<3>              make_cracks(const Case &, const Surface<4, 3> &);
+template std::vector<Polyline<2>> make_fine_lines(const Case &, const Surface<2, 2> &);
+template std::vector<Polyline<2>> make_fine_lines(const Case &, const Surface<3, 2> &);
+template std::vector<Polyline<2>> make_fine_lines(const Case &, const Surface<4, 2> &);
+template std::vector<Polyline<3>> make_fine_lines(const Case &, const Surface<2, 3> &);
+template std::vector<Polyline<3>> make_fine_lines(const Case &, const Surface<3, 3> &);
+template std::vector<Polyline<3>> make_fine_lines(const Case &, const Surface<4, 3> &);
 
 } // namespace sherd

@@ -82,7 +82,9 @@ std::vector<ChoiceGroup> choice_groups()
       {"solver",
        {{"monolithic", "displacement and phase together, full Newton"},
         {"staggered", "alternately, for quasi-static cracks that run unstably"},
-        {"explicit", "lumped mass, small steps"}}},
+        {"explicit", "lumped mass, small steps"},
+        {"arc_length", "equilibria without crack growth, through limit points of load and displacement"},
+        {"modes", "free vibrations about the state at rest"}}},
   };
 }
 

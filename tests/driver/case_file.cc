@@ -97,6 +97,10 @@ TEST_CASE("Integrators and solvers that do not belong together are refused")
   CHECK(with("integrator: bathe", "") == "");
   CHECK(with("integrator: central_difference", "solver: explicit\n") == "");
   CHECK_THAT(with("integrator: central_difference", ""), Contains("belong together"));
+  CHECK(with("integrator: quasi_static", "solver: arc_length\n") == "");
+  CHECK_THAT(with("integrator: bathe", "solver: arc_length\n"), Contains("use quasi_static"));
+  CHECK(with("integrator: bathe", "solver: modes\nstop: {steps: 3}\n") == "");
+  CHECK_THAT(with("integrator: bathe", "solver: modes\nstop: {crack_length: 1}\n"), Contains("no crack grows"));
   CHECK_THAT(with("integrator: hht, rho_inf: 0.5", ""), Contains("has no rho_inf"));
   CHECK_THAT(with("integrator: newmark, beta: 0.1", ""), Contains("beta"));
 }

@@ -90,6 +90,27 @@ TEST_CASE("The closest place is found on every patch")
   CHECK((position(surface, place) - Point<2>(.3, 1.6)).norm() < 1e-8);
 }
 
+TEST_CASE("The closest place of a closed surface lies on the patch below the point")
+{
+  // Patches share the samples on their edges, so that the closest one to a point near an edge belongs to the neighbour,
+  // too.
+  const auto   sphere = shapes::sphere<4>(2., 2, shapes::Fit::exact);
+  std::mt19937 random(11);
+  for (int k = 0; k < 100; ++k)
+    {
+      Point<3> direction(test::symmetric(random), test::symmetric(random), test::symmetric(random));
+      if (direction.norm() < .1)
+        continue;
+      direction.normalize();
+      // From outside, on the surface and from inside.
+      for (const double radius : {2.7, 2., 1.6})
+        {
+          const auto foot = position(sphere, closest_place(sphere, Point<3>(radius * direction)));
+          CHECK((foot - 2. * direction).norm() < 1e-6);
+        }
+    }
+}
+
 TEST_CASE("Shape functions at a place sum to one and give position and fields")
 {
   const auto      surface = refined_cylinder();

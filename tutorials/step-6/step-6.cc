@@ -12,6 +12,7 @@
 #include <optional>
 
 #include <sherd/adapt/adaptivity.h>
+#include <sherd/adapt/refine_along.h>
 #include <sherd/base/output_directory.h>
 #include <sherd/driver/case_plate.h>
 #include <sherd/geometry/shapes.h>
@@ -74,19 +75,21 @@ struct Material
 
 struct Parameters
 {
-  Material            material;
-  Loading             loading      = Loading::tension;
-  double              side         = 1.;
-  std::array<int, 2>  elements     = {16, 16};
-  Method              method       = Method::staggered;
-  double              speed        = 1e-2;
-  double              end          = .65;
-  double              largest_step = 1e-2;
-  StepControlSettings steps{.initial = 1e-2};
-  RefinementSettings  refinement{.target = 3.75e-3, .phase = .85, .phase_with = .9, .halo = 1.5e-2};
-  NewtonSettings      newton;
-  CheckpointSettings  checkpoint;
-  int                 frames = 13;
+  Material              material;
+  Loading               loading      = Loading::tension;
+  double                side         = 1.;
+  std::array<int, 2>    elements     = {17, 17};
+  Method                method       = Method::staggered;
+  double                speed        = 1e-2;
+  double                end          = .65;
+  double                largest_step = 1e-2;
+  StepControlSettings   steps{.initial = 1e-2};
+  RefinementSettings    refinement{.target = 3.75e-3, .phase = .85, .phase_with = .9, .history_fraction = 1.};
+  std::vector<Point<2>> path;
+  double                path_width = 1.8e-2;
+  NewtonSettings        newton;
+  CheckpointSettings    checkpoint;
+  int                   frames = 13;
 
   // Static systems defeat incomplete factors, and at the peak displacement and phase take many turns.
   Parameters()
@@ -110,6 +113,8 @@ struct Parameters
     section.value("largest_step", largest_step, "s", range::positive(), "largest step");
     section.subsection("steps", steps, "step sizes, paper Eq. (13)");
     section.subsection("refinement", refinement, "where the mesh is refined");
+    section.value("path", path, "mm", range::any(), "where the crack is expected, a polyline: fine from the start");
+    section.value("path_width", path_width, "mm", range::non_negative(), "how far from it the mesh is fine");
     section.subsection("newton", newton, "nonlinear and linear solver");
     section.subsection("checkpoint", checkpoint, "when a state to go on from is written");
     section.value("frames", frames, range::at_least(1), "pictures of the run, evenly spaced in time");
@@ -186,6 +191,9 @@ void load_plate(const Environment &env, const Parameters &prm, const AnyIntegrat
     resume(*checkpoint, solver, plate, space, state, controller);
   else
     {
+      // In an unstable step the crack does not wait for the mesh.
+      if (!prm.path.empty())
+        refine_along(plate, Polyline<2>(prm.path), prm.path_width, prm.refinement.target);
       adaptivity.prepare(solver, plate, space, state, notch);
       controller.bound(solver.assembler().shortest_edge(), solver.rayleigh_speed());
     }
@@ -233,5 +241,6 @@ void choose_method(const Environment &env, const Parameters &prm)
 int main(int argc, char **argv)
 {
   return run_restartable<step_6::Parameters>(
-      argc, argv, {"material", "loading", "side", "elements", "speed", "refinement"}, step_6::choose_method);
+      argc, argv, {"material", "loading", "side", "elements", "speed", "refinement", "path", "path_width"},
+      step_6::choose_method);
 }

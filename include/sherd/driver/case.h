@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <sherd/adapt/marking.h>
+#include <sherd/algebra/eigen_solver.h>
 #include <sherd/driver/boundary_parameters.h>
 #include <sherd/driver/fracture_parameters.h>
 #include <sherd/driver/material_parameters.h>
@@ -11,6 +12,7 @@
 #include <sherd/driver/surface_parameters.h>
 #include <sherd/output/checkpoint_writer.h>
 #include <sherd/solve/newton_settings.h>
+#include <sherd/solve/static_settings.h>
 
 /// Case files of the program sherd (doc/case-files.md).
 namespace sherd
@@ -21,26 +23,32 @@ enum class SolverChoice
 {
   monolithic,
   staggered,
-  explicit_
+  explicit_,
+  arc_length, ///< the path of equilibria of the body as it is; time is the load factor
+  modes       ///< free vibrations of the body as it is
 };
 
 /// Everything a case file says.
 struct Case
 {
-  SurfaceParameters              surface;
-  MaterialParameters             material;
-  FractureParameters             fracture;
-  std::vector<RegionParameters>  regions;
-  std::vector<CrackParameters>   cracks;
-  std::vector<SupportParameters> supports;
-  std::vector<LoadParameters>    loads;
-  TimeParameters                 time;
-  SolverChoice                   solver = SolverChoice::monolithic;
-  NewtonSettings                 newton;
-  RefinementSettings             refinement;
-  StopParameters                 stop;
-  OutputParameters               output;
-  CheckpointSettings             checkpoint;
+  SurfaceParameters               surface;
+  MaterialParameters              material;
+  FractureParameters              fracture;
+  std::vector<RegionParameters>   regions;
+  std::vector<CrackParameters>    cracks;
+  std::vector<SupportParameters>  supports;
+  std::vector<LoadParameters>     loads;
+  TimeParameters                  time;
+  SolverChoice                    solver = SolverChoice::monolithic;
+  NewtonSettings                  newton;
+  StaticSettings                  statics;
+  ArcLengthSettings               arc_length;
+  EigenSettings                   modes;
+  RefinementSettings              refinement;
+  std::vector<FineMeshParameters> fine_mesh;
+  StopParameters                  stop;
+  OutputParameters                output;
+  CheckpointSettings              checkpoint;
 
   void declare(ParameterSection &section);
 

@@ -48,4 +48,8 @@ CaseModel<degree, spacedim> make_model(const Case &prm)
 template <int degree, int spacedim>
 PreCrack<spacedim> make_cracks(const Case &prm, const Surface<degree, spacedim> &surface);
 
+/// The lines of Case::fine_mesh; as make_cracks.
+template <int degree, int spacedim>
+std::vector<Polyline<spacedim>> make_fine_lines(const Case &prm, const Surface<degree, spacedim> &surface);
+
 } // namespace sherd

@@ -57,6 +57,19 @@ struct CrackParameters
   }
 };
 
+/// A line along which the mesh is fine from the start.
+struct FineMeshParameters
+{
+  CrackParameters line;
+  double          width = NAN;
+
+  void declare(ParameterSection &section)
+  {
+    line.declare(section);
+    section.value("width", width, "length", range::non_negative(), "how far from the line");
+  }
+};
+
 /// A part of the surface of other toughness or stiffness.
 struct RegionParameters
 {

@@ -3,10 +3,12 @@
 #include <iostream>
 
 #include <sherd/adapt/adaptivity.h>
+#include <sherd/adapt/refine_along.h>
 #include <sherd/base/parameters.h>
 #include <sherd/driver/case_kernel.h>
 #include <sherd/driver/case_solver.h>
 #include <sherd/driver/make_surface.h>
+#include <sherd/driver/resting_body.h>
 #include <sherd/driver/run_case.h>
 #include <sherd/driver/stop_criteria.h>
 #include <sherd/output/probes.templates.h>
@@ -64,6 +66,7 @@ public:
         surface_(blank_),
         model_(make_model<degree, spacedim>(prm)),
         cracks_(make_cracks(prm, blank_)),
+        fine_lines_(make_fine_lines(prm, blank_)),
         space_(env, surface_, prm.surface.continuity.make())
   {
     for (std::size_t i = 0; i < prm.supports.size(); ++i)
@@ -114,7 +117,17 @@ public:
     });
   }
 
+  /// The run as Case::solver asks.
   void run(const OutputDirectory &directory)
+  {
+    if (prm_.solver == SolverChoice::arc_length || prm_.solver == SolverChoice::modes)
+      run_at_rest(directory);
+    else
+      run_in_time(directory);
+  }
+
+private:
+  void run_in_time(const OutputDirectory &directory)
   {
     Solver            solver = make_solver();
     Adaptivity<Model> adaptivity(blank_, prm_.refinement);
@@ -126,7 +139,7 @@ public:
       resume(*checkpoint, solver, surface_, space_, state, controller);
     else
       {
-        adaptivity.prepare(solver, surface_, space_, state, cracks_);
+        prepare(solver, adaptivity, state);
         if (has_inertia())
           solver.set_initial_acceleration(state);
       }
@@ -150,7 +163,34 @@ public:
     run.finish();
   }
 
-private:
+  void run_at_rest(const OutputDirectory &directory)
+  {
+    refuse_restart(env_);
+    State<degree, spacedim> state(space_);
+    {
+      // The cracks there are: the phase of the state at rest.
+      Solver            solver = make_solver();
+      Adaptivity<Model> adaptivity(blank_, prm_.refinement);
+      prepare(solver, adaptivity, state);
+    }
+    directory.prepare();
+    write_parameters(env_, directory.file("used.yaml"), prm_);
+    const RestingBody<degree, spacedim> body{env_, model_, surface_, space_, supports_, loads_, state};
+    if (prm_.solver == SolverChoice::modes)
+      write_modes(body, directory, prm_.modes);
+    else
+      follow_path(body, directory, prm_.statics, prm_.arc_length, prm_.time.end, prm_.stop.steps, recording_.points,
+                  recording_.edges);
+  }
+
+  /// The mesh and the state before the first step.
+  void prepare(Solver &solver, Adaptivity<Model> &adaptivity, State<degree, spacedim> &state)
+  {
+    for (std::size_t i = 0; i < fine_lines_.size(); ++i)
+      refine_along(surface_, fine_lines_[i], prm_.fine_mesh[i].width, prm_.refinement.target);
+    adaptivity.prepare(solver, surface_, space_, state, cracks_);
+  }
+
   bool has_inertia() const { return prm_.time.integrator != "quasi_static"; }
 
   Solver make_solver()
@@ -168,6 +208,8 @@ private:
                                                                         prm_.time.make_integrator(), prm_.newton),
                 bounds};
       case SolverChoice::monolithic:
+      case SolverChoice::arc_length:
+      case SolverChoice::modes:
         break;
       }
     return {std::make_unique<MonolithicSolver<Model, AnyIntegrator>>(model_, space_, supports_, loads_,
@@ -175,15 +217,16 @@ private:
             bounds};
   }
 
-  Environment                  env_;
-  const Case                  &prm_;
-  Surface<degree, spacedim>    blank_, surface_;
-  Model                        model_;
-  PreCrack<spacedim>           cracks_;
-  Supports                     supports_;
-  Loads<spacedim>              loads_;
-  ShellSpace<degree, spacedim> space_;
-  RecorderSettings<spacedim>   recording_;
+  Environment                     env_;
+  const Case                     &prm_;
+  Surface<degree, spacedim>       blank_, surface_;
+  Model                           model_;
+  PreCrack<spacedim>              cracks_;
+  std::vector<Polyline<spacedim>> fine_lines_;
+  Supports                        supports_;
+  Loads<spacedim>                 loads_;
+  ShellSpace<degree, spacedim>    space_;
+  RecorderSettings<spacedim>      recording_;
 };
 
 template <int degree, int spacedim>

@@ -22,9 +22,9 @@ struct PlaceValues
   std::vector<double> value;  ///< N_A, shape=(points); sum 1
 };
 
-/// The point of the surface closest to @p X: the best of 3 x 3 points an element, then damped Gauss-Newton in the
-/// parameters, kept inside the patch. Where several places are equally close, as on the two sides of a slit or a shared
-/// edge, the first found.
+/// The point of the surface closest to @p X: on each patch the best of 3 x 3 points an element, then damped
+/// Gauss-Newton in the parameters, kept inside the patch; the closest of them. Where several places are equally close,
+/// as on the two sides of a slit or a shared edge, the first found.
 template <int degree, int spacedim>
 SurfacePlace closest_place(const Surface<degree, spacedim> &surface, const Point<spacedim> &X);
 

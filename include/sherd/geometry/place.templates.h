@@ -72,45 +72,56 @@ Eigen::Vector2d closest_step(const Eigen::Matrix<double, spacedim, 2> &tangents,
 
 } // namespace internal
 
-template <int degree, int spacedim>
-SurfacePlace closest_place(const Surface<degree, spacedim> &surface, const Point<spacedim> &X)
+namespace internal
 {
-  SurfacePlace best{};
+
+/// A place and how far it is from the point that is looked for.
+struct NearPlace
+{
+  SurfacePlace place{};
   double       distance = std::numeric_limits<double>::infinity();
-  for (int p = 0; p < surface.n_patches(); ++p)
+};
+
+/// The closest of 3 x 3 points of each element of a patch.
+template <int degree, int spacedim>
+NearPlace closest_sample(const Surface<degree, spacedim> &surface, int p, const Point<spacedim> &X)
+{
+  NearPlace   best;
+  const auto &patch = surface.patch(p);
+  for (int e = 0; e < patch.basis.n_elements(); ++e)
     {
-      const auto &patch = surface.patch(p);
-      for (int e = 0; e < patch.basis.n_elements(); ++e)
-        {
-          const auto element = bezier_element<spacedim>(patch, e, patch.control_points);
-          const auto samples = [&box = element.box](int d) {
-            return std::array<double, 3>{box.min[d], .5 * (box.min[d] + box.max[d]), box.max[d]};
-          };
-          for (const double u : samples(0))
-            for (const double v : samples(1))
-              if (const double d = (element(u, v) - X).norm(); d < distance)
-                {
-                  distance = d;
-                  best     = {p, u, v};
-                }
-        }
+      const auto element = bezier_element<spacedim>(patch, e, patch.control_points);
+      const auto samples = [&box = element.box](int d) {
+        return std::array<double, 3>{box.min[d], .5 * (box.min[d] + box.max[d]), box.max[d]};
+      };
+      for (const double u : samples(0))
+        for (const double v : samples(1))
+          if (const double d = (element(u, v) - X).norm(); d < best.distance)
+            best = {{p, u, v}, d};
     }
-  const auto &domain = surface.patch(best.patch).basis.domain();
+  return best;
+}
+
+/// Damped Gauss-Newton in the parameters of the patch.
+template <int degree, int spacedim>
+NearPlace approach(const Surface<degree, spacedim> &surface, NearPlace best, const Point<spacedim> &X)
+{
+  const int   patch  = best.place.patch;
+  const auto &domain = surface.patch(patch).basis.domain();
   for (int iteration = 0; iteration < 50; ++iteration)
     {
-      const internal::SurfaceTangents<degree, spacedim> here(surface, best);
-      const Eigen::Vector2d                             at(best.u, best.v);
-      const Point<spacedim>                             offset = X - here.X;
-      Eigen::Vector2d step     = internal::closest_step<spacedim>(here.tangents, offset, at, domain);
-      bool            improved = false;
+      const SurfaceTangents<degree, spacedim> here(surface, best.place);
+      const Eigen::Vector2d                   at(best.place.u, best.place.v);
+      const Point<spacedim>                   offset   = X - here.X;
+      Eigen::Vector2d                         step     = closest_step<spacedim>(here.tangents, offset, at, domain);
+      bool                                    improved = false;
       for (int halving = 0; halving < 8 && !improved; ++halving, step *= .5)
         {
-          const SurfacePlace next{best.patch, std::clamp(at[0] + step[0], domain.min[0], domain.max[0]),
+          const SurfacePlace next{patch, std::clamp(at[0] + step[0], domain.min[0], domain.max[0]),
                                   std::clamp(at[1] + step[1], domain.min[1], domain.max[1])};
-          if (const double d = (position(surface, next) - X).norm(); d < distance)
+          if (const double d = (position(surface, next) - X).norm(); d < best.distance)
             {
-              distance = d;
-              best     = next;
+              best     = {next, d};
               improved = true;
             }
         }
@@ -118,6 +129,19 @@ SurfacePlace closest_place(const Surface<degree, spacedim> &surface, const Point
         break;
     }
   return best;
+}
+
+} // namespace internal
+
+template <int degree, int spacedim>
+SurfacePlace closest_place(const Surface<degree, spacedim> &surface, const Point<spacedim> &X)
+{
+  internal::NearPlace best;
+  for (int p = 0; p < surface.n_patches(); ++p)
+    if (const auto found = internal::approach(surface, internal::closest_sample(surface, p, X), X);
+        found.distance < best.distance)
+      best = found;
+  return best.place;
 }
 
 template <int degree, int spacedim>

@@ -10,26 +10,6 @@
 namespace sherd
 {
 
-/// Steps along an equilibrium path.
-struct ArcLengthSettings
-{
-  double first_factor      = .05;  ///< load factor that sets the length of the first step
-  int    wanted_iterations = 6;    ///< steps grow while the corrector takes fewer iterations, and shrink beyond
-  double largest           = 4.;   ///< longest step, relative to the first
-  double smallest          = 1e-4; ///< a failed step shorter than this, relative to the first, ends the run
-  int    max_iterations    = 15;   ///< of the corrector
-
-  void declare(ParameterSection &section)
-  {
-    section.value("first_factor", first_factor, "-", range::positive(), "load factor that sets the first step");
-    section.value("wanted_iterations", wanted_iterations, range::at_least(1),
-                  "steps grow while the corrector takes fewer iterations, and shrink beyond");
-    section.value("largest", largest, "-", range::positive(), "longest step, relative to the first");
-    section.value("smallest", smallest, "-", range::positive(), "shortest step, relative to the first");
-    section.value("max_iterations", max_iterations, range::at_least(1), "iterations of the corrector");
-  }
-};
-
 /// Follows an equilibrium path r(x, lambda) = 0 through limit points of load and displacement.
 ///
 /// A step of length s solves r = 0 together with |x - x_n|^2 = s^2 by Newton's method on both (bordered by elimination:

@@ -4,32 +4,12 @@
 #include <string>
 #include <vector>
 
-#include <sherd/algebra/linear_solver.h>
 #include <sherd/assembly/assembler.h>
-#include <sherd/solve/line_search.h>
+#include <sherd/solve/static_settings.h>
 #include <sherd/solve/supported_unknowns.h>
 
 namespace sherd
 {
-
-/// When a static equilibrium is found and when it is given up.
-struct StaticSettings
-{
-  double               tolerance      = 1e-8; ///< |r| relative to the larger of the norms of load and reaction
-  int                  max_iterations = 30;
-  double               divergence     = 1e6; ///< growth of the residual after the third iteration that gives up
-  LineSearchSettings   line_search{.max_trials = 0};
-  LinearSolverSettings linear{.preconditioner = Preconditioner::mumps, .tolerance = 1e-6};
-
-  void declare(ParameterSection &section)
-  {
-    section.value("tolerance", tolerance, "-", range::open(0., 1.), "residual over the larger of load and reaction");
-    section.value("max_iterations", max_iterations, range::at_least(1), "Newton iterations of a load step");
-    section.value("divergence", divergence, "-", range::positive(), "growth of the residual that ends a load step");
-    section.subsection("line_search", line_search, "length of Newton's steps");
-    section.subsection("linear", linear, "linear solver");
-  }
-};
 
 /// What an attempt at one equilibrium came to.
 template <int degree, int spacedim>
