@@ -17,8 +17,7 @@ namespace internal
 /// Control points of an element in the padded work space of the extraction.
 inline constexpr int max_element_points = 48;
 
-/// The element matrix on control points, out[c][i][d][j] = sum_ab E^c_ia K^cd_ab E^d_jb for all fields c, d of the
-/// part.
+/// The element matrix on control points, out[c][i][d][j] = sum_ab E^c_ia K^cd_ab E^d_jb for fields c, d of the part.
 /// @param Et      transposed extraction of each field, by rows, shape=(n_b, width), zero beyond column n
 /// @param right   work space, shape=(n_fields*n_b, n_fields*width)
 /// @param out     shape=(n_fields, n, n_fields, width)

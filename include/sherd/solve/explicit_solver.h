@@ -21,8 +21,7 @@ namespace sherd
 /// Unknowns that a support moves get the rates of three points of its path in the step. Ties act on increments; masses
 /// of tied unknowns go to their masters. Interfaces have to be kept together by penalties, since multipliers have no
 /// mass. No matrix is made in a step but that of the phase. Kinetic energy and work are those of the lumped mass; the
-/// work is that of the mean of the forces at both ends
-/// of the step. n_NR counts the iterations for the phase.
+/// work is that of the mean of the forces at both ends of the step. n_NR counts the iterations for the phase.
 ///
 /// The arguments of the constructor have to outlive the solver.
 ///
