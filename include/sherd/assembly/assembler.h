@@ -53,7 +53,7 @@ public:
   /// rows and columns are empty but for a 1 on the diagonal. Collective.
   /// @param ties         of the surface of @p space
   /// @param weak_edges   Supports::weak_edges()
-  /// @throws InvalidParameter   a degenerate element, a toughness or stiffness that is not positive; from InterfaceTerms
+  /// @throws InvalidParameter   a degenerate element, a toughness or stiffness not positive; from InterfaceTerms
   ///                            and WeakEdgeTerms: on all ranks
   Assembler(const Model &model, const ShellSpace<degree, spacedim> &space,
             std::shared_ptr<const Distribution> distribution, const std::vector<Tie> &ties = {},

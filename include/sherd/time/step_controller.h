@@ -53,7 +53,8 @@ struct StepControlSettings
     section.value("smallest", smallest, "-", range::open(0., 1.), "smallest step over the largest; the run ends below");
     section.choice("rule", rule, {{"newton", StepRule::newton}, {"fixed", StepRule::fixed}, {"error", StepRule::error}},
                    "what sets the step: Newton iterations (paper Eq. (13)), nothing, or the estimated error");
-    section.value("tolerance", tolerance, "-", range::positive(), "error of a step over the size of the body that is allowed, for rule error");
+    section.value("tolerance", tolerance, "-", range::positive(),
+                  "error of a step over the size of the body that is allowed, for rule error");
     section.value("times", times, "time", range::positive(),
                   "steps end exactly at these times, and frames are written");
     section.value("hit_frames", hit_frames, "whether steps end exactly at the evenly spaced frames");
