@@ -202,6 +202,7 @@ void vibrate_shell(const Environment &env, const Parameters &prm)
         state.velocity.local()[3 * a + 2] = -400. * s * s * std::exp(-4. * r * r);
       }
     solver.rebuild(state);
+    solver.complete_velocity(state); // the profile is not exactly level at the planes of symmetry
     solver.set_initial_acceleration(state);
     directory.prepare();
     write_parameters(env, directory.file("used.yaml"), prm);

@@ -15,12 +15,12 @@ double zero(double)
 
 void Supports::fix(Region region, Component component)
 {
-  prescribe(std::move(region), component, zero);
+  supports_.push_back({std::move(region), component, Rows::first, zero, true});
 }
 
 void Supports::fix(Region region)
 {
-  supports_.push_back({std::move(region), {}, Rows::first, zero});
+  supports_.push_back({std::move(region), {}, Rows::first, zero, true});
 }
 
 void Supports::prescribe(Region region, Component component, std::function<double(double)> displacement)
@@ -30,7 +30,7 @@ void Supports::prescribe(Region region, Component component, std::function<doubl
 
 void Supports::clamp(const std::string &edge)
 {
-  supports_.push_back({edge, {}, Rows::first_second, zero});
+  supports_.push_back({edge, {}, Rows::first_second, zero, true});
 }
 
 void Supports::prescribe_clamped(const std::string &edge, Component component,

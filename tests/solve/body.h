@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
+
+#include <catch2/catch.hpp>
 
 #include <sherd/fracture/crack_density/fourth_order.h>
 #include <sherd/fracture/degradation/cubic.h>
@@ -140,6 +143,37 @@ inline double biaxial_stretch(double energy, double bulk)
   for (double middle = 1.5; low < middle && middle < high; middle = .5 * (low + high))
     (bulk / 4. * (std::pow(middle, 4) - 1. - 4. * std::log(middle)) < energy ? low : high) = middle;
   return high;
+}
+
+/// A toughness that no load of these tests can reach: the phase stays 1 and the plate elastic.
+inline const Units unbreakable{1e4, .2, 1e10};
+
+/// Both displacements of the left edge are zero.
+inline Supports held()
+{
+  Supports supports;
+  supports.fix("left", Component::x);
+  supports.fix("left", Component::y);
+  return supports;
+}
+
+/// Takes a step that has to succeed.
+template <class SomeBody>
+auto take(SomeBody &body, double dt)
+{
+  auto result = body.solver.attempt(body.state, dt);
+  INFO(result.failure);
+  REQUIRE(result.state);
+  body.state = *result.state;
+  return result;
+}
+
+inline double distance(const std::vector<double> &a, const std::vector<double> &b)
+{
+  double sum = 0.;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum);
 }
 
 /// Tolerances at which a converged step is exact to about ten digits.

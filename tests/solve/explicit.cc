@@ -20,26 +20,6 @@ namespace
 
 using Explicit = Body<Glass, CentralDifference, ExplicitSolver<Glass>>;
 
-const Units unbreakable{1e4, .2, 1e10};
-
-Supports held()
-{
-  Supports supports;
-  supports.fix("left", Component::x);
-  supports.fix("left", Component::y);
-  return supports;
-}
-
-template <class SomeBody>
-auto take(SomeBody &body, double dt)
-{
-  auto result = body.solver.attempt(body.state, dt);
-  INFO(result.failure);
-  REQUIRE(result.state);
-  body.state = *result.state;
-  return result;
-}
-
 /// Largest omega of K v = omega^2 M v on the free displacements, M lumped: a dense eigenvalue problem on one rank.
 template <class Model>
 double largest_frequency(const Model &model, const ShellSpace<Model::degree, Model::spacedim> &space,
@@ -215,12 +195,6 @@ TEST_CASE("Explicit motion is of second order in time, also under changing steps
       for (const double s : {1., 1.5, .5})
         take(body, .06 * s / (3. * n_cycles));
     return gather(body.state.position);
-  };
-  const auto distance = [](const std::vector<double> &a, const std::vector<double> &b) {
-    double sum = 0.;
-    for (std::size_t i = 0; i < a.size(); ++i)
-      sum += (a[i] - b[i]) * (a[i] - b[i]);
-    return std::sqrt(sum);
   };
   const auto a = swung(4), b = swung(8), c = swung(16);
   CHECK(std::log2(distance(a, b) / distance(b, c)) == Approx(2.).margin(.1));

@@ -11,9 +11,6 @@ using namespace sherd::test;
 namespace
 {
 
-/// A toughness that no load of these tests can reach: the phase stays 1 and the plate elastic.
-const Units unbreakable{1e4, .2, 1e10};
-
 /// Unit velocity field of a plate that is held at its left edge.
 Point<2> swing(const Point<2> &X)
 {
@@ -31,25 +28,6 @@ void set_velocity(Body<Glass, Integrator> &body, double size)
     }
 }
 
-Supports held()
-{
-  Supports supports;
-  supports.fix("left", Component::x);
-  supports.fix("left", Component::y);
-  return supports;
-}
-
-/// Takes a step that has to succeed.
-template <class SomeBody>
-auto take(SomeBody &body, double dt)
-{
-  auto result = body.solver.attempt(body.state, dt);
-  INFO(result.failure);
-  REQUIRE(result.state);
-  body.state = *result.state;
-  return result;
-}
-
 /// Positions at t = 0.06 of a soft plate that swings through strains of several per cent, under the steps 1, 1.5, 0.5
 /// that resolve its highest frequency.
 std::vector<double> swung(double rho, int n_cycles)
@@ -64,14 +42,6 @@ std::vector<double> swung(double rho, int n_cycles)
     for (const double s : {1., 1.5, .5})
       take(body, .06 * s / (3. * n_cycles));
   return gather(body.state.position);
-}
-
-double distance(const std::vector<double> &a, const std::vector<double> &b)
-{
-  double sum = 0.;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return std::sqrt(sum);
 }
 
 /// A plate with a crack from its left edge to its centre that is about to be torn open in one step.

@@ -53,7 +53,7 @@ public:
   /// rows and columns are empty but for a 1 on the diagonal. Collective.
   /// @param ties         of the surface of @p space
   /// @param weak_edges   Supports::weak_edges()
-  /// @throws InvalidParameter   a degenerate element, a toughness or stiffness that is not positive; from InterfaceTerms
+  /// @throws InvalidParameter   a degenerate element, a toughness or stiffness not positive; from InterfaceTerms
   ///                            and WeakEdgeTerms: on all ranks
   Assembler(const Model &model, const ShellSpace<degree, spacedim> &space,
             std::shared_ptr<const Distribution> distribution, const std::vector<Tie> &ties = {},
@@ -93,8 +93,11 @@ public:
   /// error [force/length]. Of this rank.
   double sensitivity() const { return std::max(interfaces_.sensitivity(), weak_edges_.sensitivity()); }
 
-  /// Matrix with the graph of the space, zero.
-  Matrix make_matrix() const { return Matrix(distribution_, space_->distribution().graph, n_fields); }
+  /// Matrix with the graph of the space for the unknowns of a part, zero.
+  Matrix make_matrix(Unknowns part = Unknowns::all) const
+  {
+    return Matrix(distribution_, space_->distribution().graph, fields_of(part, spacedim).count);
+  }
 
   /// Internal and inertial forces and the phase residual on the owned control points, block n_fields.
   void force(const BalanceLevel &level, const QuadratureField &history, Vector &force) const;
@@ -113,8 +116,25 @@ public:
                  PhaseTangent phase_tangent, const LoadValues<Model> &loads, Vector &force, Vector &external,
                  Matrix &matrix) const;
 
+  /// Forces with loads of the unknowns of a part alone: other rows of @p force get 0. The phase has no external force;
+  /// for it @p external is left as it is.
+  template <Unknowns part>
+  void part_force(const BalanceLevel &level, const QuadratureField &history, const LoadValues<Model> &loads,
+                  Vector &force, Vector &external) const;
+
+  /// The same and the tangent by these unknowns, in a make_matrix(part): half of the system where displacement and
+  /// phase are solved for in turn.
+  template <Unknowns part>
+  void linearise_part(const BalanceLevel &level, const QuadratureField &history, double mass_weight,
+                      PhaseTangent phase_tangent, const LoadValues<Model> &loads, Vector &force, Vector &external,
+                      Matrix &matrix) const;
+
   /// M in the displacement block, 1 on the diagonal of the phase and of multipliers.
   void mass_matrix(Matrix &matrix) const;
+
+  /// The same in a make_matrix(part). @tparam part   has the displacement
+  template <Unknowns part>
+  void part_mass_matrix(Matrix &matrix) const;
 
   /// Loads of one time. Collective.
   /// @throws InvalidParameter   an edge that does not exist, a point load away from the surface
@@ -159,8 +179,10 @@ private:
   const ExtractionMatrix<degree> &extraction(int active, int field) const;
   ControlValues<spacedim>         control_values(int active, const Vector &position) const;
   RowRange                        all_rows() const { return {0, distribution_->n_owned(), {}}; }
+  template <Unknowns part = Unknowns::all>
   void scatter_force(int active, const ElementVector<Model> &f, const RowRange &range, Vector &force) const;
-  void scatter_matrix(int active, const ElementMatrix<Model> &k, const RowRange &range, Matrix &matrix) const;
+  template <Unknowns part>
+  void scatter_matrix(int active, const ElementMatrix<Model, part> &k, const RowRange &range, Matrix &matrix) const;
   void scatter_point_force(int active, ControlValues<spacedim> f, Vector &force) const;
   void scatter_point_matrix(int active, Eigen::MatrixXd k, Matrix &matrix) const;
   void add_edge_moments(const Vector &position, const LoadValues<Model> &loads, Vector &external) const;

@@ -17,14 +17,15 @@ namespace internal
 /// Control points of an element in the padded work space of the extraction.
 inline constexpr int max_element_points = 48;
 
-/// The element matrix on control points, out[c][i][d][j] = sum_ab E^c_ia K^cd_ab E^d_jb for all fields c, d.
+/// The element matrix on control points, out[c][i][d][j] = sum_ab E^c_ia K^cd_ab E^d_jb for fields c, d of the part.
 /// @param Et      transposed extraction of each field, by rows, shape=(n_b, width), zero beyond column n
 /// @param right   work space, shape=(n_fields*n_b, n_fields*width)
 /// @param out     shape=(n_fields, n, n_fields, width)
-template <class Model, int width>
-inline void extract(int n, const double *const *Et, const ElementMatrix<Model> &K, double *right, double *out)
+template <int width, class Model, Unknowns part>
+inline void extract(int n, const double *const *Et, const ElementMatrix<Model, part> &K, double *right, double *out)
 {
-  constexpr int n_b = ElementMatrix<Model>::n_b, n_fields = Model::n_fields, stride = n_fields * width;
+  constexpr int n_b = ElementMatrix<Model, part>::n_b, n_fields = fields_of(part, Model::spacedim).count;
+  constexpr int stride = n_fields * width;
   for (int d = 0; d < n_fields; ++d)
     set_product<width>(n_fields * n_b, n_b, {K.value[0] + d * n_b, K.stride, 1}, Et[d], width, right + d * width,
                        stride);
@@ -163,12 +164,14 @@ ElementFields<Model> Assembler<Model>::fields(int active, const Vector &position
 }
 
 template <class Model>
+template <Unknowns part>
 void Assembler<Model>::scatter_force(int active, const ElementVector<Model> &f, const RowRange &range,
                                      Vector &force) const
 {
-  const auto points = space_->points_of(active);
-  auto       out    = force.local();
-  for (int c = 0; c < n_fields; ++c)
+  constexpr auto fields = fields_of(part, spacedim);
+  const auto     points = space_->points_of(active);
+  auto           out    = force.local();
+  for (int c = fields.first; c < fields.first + fields.count; ++c)
     {
       const auto &E = extraction(active, c);
       for (std::size_t i = 0; i < points.size(); ++i)
@@ -183,10 +186,12 @@ void Assembler<Model>::scatter_force(int active, const ElementVector<Model> &f, 
 }
 
 template <class Model>
-void Assembler<Model>::scatter_matrix(int active, const ElementMatrix<Model> &k, const RowRange &range,
+template <Unknowns part>
+void Assembler<Model>::scatter_matrix(int active, const ElementMatrix<Model, part> &k, const RowRange &range,
                                       Matrix &matrix) const
 {
   constexpr int n_b       = ElementMatrix<Model>::n_b;
+  constexpr int n_scalar  = fields_of(part, spacedim).count; // rows of a block
   const auto    points    = space_->points_of(active);
   const int     n         = static_cast<int>(points.size());
   const auto    positions = scatter_.positions(active);
@@ -197,36 +202,36 @@ void Assembler<Model>::scatter_matrix(int active, const ElementMatrix<Model> &k,
   constexpr int wider   = padded(n_b + 8);
   constexpr int widest  = internal::max_element_points;
   const int     width   = n <= tensor ? tensor : n <= wider ? wider : widest;
-  const auto    extract = width == tensor  ? internal::extract<Model, tensor>
-                          : width == wider ? internal::extract<Model, wider>
-                                           : internal::extract<Model, widest>;
+  const auto    extract = width == tensor  ? internal::extract<tensor, Model, part>
+                          : width == wider ? internal::extract<wider, Model, part>
+                                           : internal::extract<widest, Model, part>;
 
-  const int          n_distinct = ties_.index(active) < 0 ? 1 : n_fields;
-  alignas(64) double transposed[n_fields][n_b * widest];
-  const double      *Et[n_fields];
-  for (int c = 0; c < n_fields; ++c)
+  const int          n_distinct = ties_.index(active) < 0 ? 1 : n_scalar;
+  alignas(64) double transposed[n_scalar][n_b * widest];
+  const double      *Et[n_scalar];
+  for (int c = 0; c < n_scalar; ++c)
     Et[c] = transposed[c % n_distinct];
   for (int c = 0; c < n_distinct; ++c)
     {
-      const auto &E = extraction(active, c);
+      const auto &E = extraction(active, fields_of(part, spacedim).first + c);
       std::fill_n(transposed[c], n_b * width, 0.);
       for (int i = 0; i < n; ++i)
         for (int b = 0; b < n_b; ++b)
           transposed[c][b * width + i] = E(i, b);
     }
 
-  alignas(64) double right[n_fields * n_b * n_fields * widest];
-  alignas(64) double out[n_fields * widest * n_fields * widest];
+  alignas(64) double right[n_scalar * n_b * n_scalar * widest];
+  alignas(64) double out[n_scalar * widest * n_scalar * widest];
   extract(n, Et, k, right, out);
-  for (int c = 0; c < n_fields; ++c)
+  for (int c = 0; c < n_scalar; ++c)
     for (int i = 0; i < n; ++i)
       if (points[i] >= range.begin && points[i] < range.end)
         {
           double       *row  = values + matrix.row_start(points[i]) + c * matrix.row_length(points[i]);
           const int    *at   = positions.data() + i * n;
-          const double *from = out + (c * n + i) * n_fields * width;
+          const double *from = out + (c * n + i) * n_scalar * width;
           for (int j = 0; j < n; ++j)
-            internal::add_block_row<n_fields>(from + j, width, row + at[j] * n_fields);
+            internal::add_block_row<n_scalar>(from + j, width, row + at[j] * n_scalar);
         }
 }
 
@@ -241,6 +246,14 @@ template <class Model>
 void Assembler<Model>::force(const BalanceLevel &level, const QuadratureField &history, const LoadValues<Model> &loads,
                              Vector &force, Vector &external) const
 {
+  part_force<Unknowns::all>(level, history, loads, force, external);
+}
+
+template <class Model>
+template <Unknowns part>
+void Assembler<Model>::part_force(const BalanceLevel &level, const QuadratureField &history,
+                                  const LoadValues<Model> &loads, Vector &force, Vector &external) const
+{
   force.fill(0.);
 #pragma omp parallel for schedule(static, 1)
   for (std::size_t r = 0; r < ranges_.size(); ++r)
@@ -248,12 +261,13 @@ void Assembler<Model>::force(const BalanceLevel &level, const QuadratureField &h
       {
         const auto           f = fields(e, level.position, level.acceleration, level.phase);
         ElementVector<Model> vector;
-        element_force(*model_, elements_[e], f, history[e], vector);
-        scatter_force(e, vector, ranges_[r], force);
+        element_force<part>(*model_, elements_[e], f, history[e], vector);
+        scatter_force<part>(e, vector, ranges_[r], force);
       }
-  interfaces_.add_force(level.position, level.phase, force);
-  weak_edges_.add_force(level.position, level.phase, loads.time, force);
-  external_force(level, loads, external);
+  interfaces_.add_force(level.position, level.phase, part, force);
+  weak_edges_.add_force(level.position, level.phase, loads.time, part, force);
+  if constexpr (has_displacement(part))
+    external_force(level, loads, external);
 }
 
 template <class Model>
@@ -269,18 +283,28 @@ void Assembler<Model>::linearise(const BalanceLevel &level, const QuadratureFiel
                                  PhaseTangent phase_tangent, const LoadValues<Model> &loads, Vector &force,
                                  Vector &external, Matrix &matrix) const
 {
+  linearise_part<Unknowns::all>(level, history, mass_weight, phase_tangent, loads, force, external, matrix);
+}
+
+template <class Model>
+template <Unknowns part>
+void Assembler<Model>::linearise_part(const BalanceLevel &level, const QuadratureField &history, double mass_weight,
+                                      PhaseTangent phase_tangent, const LoadValues<Model> &loads, Vector &force,
+                                      Vector &external, Matrix &matrix) const
+{
   force.fill(0.);
-  external.fill(0.);
   matrix.set_zero();
+  if constexpr (has_displacement(part))
+    external.fill(0.);
 #pragma omp parallel for schedule(static, 1)
   for (std::size_t r = 0; r < ranges_.size(); ++r)
     for (const int e : ranges_[r].elements)
       {
-        const auto           f = fields(e, level.position, level.acceleration, level.phase);
-        ElementVector<Model> vector;
-        ElementMatrix<Model> tangent;
+        const auto                 f = fields(e, level.position, level.acceleration, level.phase);
+        ElementVector<Model>       vector;
+        ElementMatrix<Model, part> tangent;
         element_tangent(*model_, elements_[e], f, history[e], mass_weight, phase_tangent, vector, tangent);
-        if constexpr (spacedim == 3)
+        if constexpr (spacedim == 3 && has_displacement(part))
           if (!loads.pressure.empty())
             {
               ElementVector<Model> pressure = {};
@@ -288,22 +312,35 @@ void Assembler<Model>::linearise(const BalanceLevel &level, const QuadratureFiel
               add_pressure_tangent(elements_[e], f, loads.pressure[e], tangent);
               scatter_force(e, pressure, ranges_[r], external);
             }
-        scatter_force(e, vector, ranges_[r], force);
+        scatter_force<part>(e, vector, ranges_[r], force);
         scatter_matrix(e, tangent, ranges_[r], matrix);
       }
-  interfaces_.linearise(level.position, level.phase, force, matrix);
-  weak_edges_.linearise(level.position, level.phase, loads.time, force, matrix);
+  interfaces_.linearise(level.position, level.phase, part, force, matrix);
+  weak_edges_.linearise(level.position, level.phase, loads.time, part, force, matrix);
+  constexpr auto fields = fields_of(part, spacedim);
   for (const auto &[a, field] : tied_unknowns_)
-    matrix.diagonal(a, field) = 1.;
-  if (loads.dead)
-    axpy(1., *loads.dead, external);
-  add_edge_moments(level.position, loads, external);
-  add_edge_moment_tangents(level.position, loads, matrix);
+    if (fields.contains(field))
+      matrix.diagonal(a, field - fields.first) = 1.;
+  if constexpr (has_displacement(part))
+    {
+      if (loads.dead)
+        axpy(1., *loads.dead, external);
+      add_edge_moments(level.position, loads, external);
+      add_edge_moment_tangents(level.position, loads, matrix);
+    }
 }
 
 template <class Model>
 void Assembler<Model>::mass_matrix(Matrix &matrix) const
 {
+  part_mass_matrix<Unknowns::all>(matrix);
+}
+
+template <class Model>
+template <Unknowns part>
+void Assembler<Model>::part_mass_matrix(Matrix &matrix) const
+{
+  static_assert(has_displacement(part), "the phase has no mass");
   constexpr int n_b = ElementMatrix<Model>::n_b;
   matrix.set_zero();
   for (const auto &range : ranges_)
@@ -311,7 +348,7 @@ void Assembler<Model>::mass_matrix(Matrix &matrix) const
       {
         std::optional<ShapeValues<degree>> storage;
         const auto                        &s = elements_[e].geometry.shapes(storage);
-        ElementMatrix<Model>               m = {};
+        ElementMatrix<Model, part>         m = {};
         for (int q = 0; q < n_q; ++q)
           for (int d = 0; d < spacedim; ++d)
             for (int a = 0; a < n_b; ++a)
@@ -320,11 +357,13 @@ void Assembler<Model>::mass_matrix(Matrix &matrix) const
                     model_->mass * elements_[e].geometry.reference[q].dA * s.value[q][a] * s.value[q][b];
         scatter_matrix(e, m, range, matrix);
       }
-  for (int a = 0; a < distribution_->n_owned(); ++a)
-    matrix.diagonal(a, spacedim) = 1.;
+  if constexpr (has_phase(part))
+    for (int a = 0; a < distribution_->n_owned(); ++a)
+      matrix.diagonal(a, spacedim) = 1.;
   interfaces_.set_identity(matrix);
   for (const auto &[a, field] : tied_unknowns_)
-    matrix.diagonal(a, field) = 1.;
+    if (field < matrix.block_size())
+      matrix.diagonal(a, field) = 1.;
 }
 
 template <class Model>

@@ -181,7 +181,7 @@ void Assembler<Model>::scatter_point_matrix(int active, Eigen::MatrixXd k, Matri
             {
               double *row = matrix.values().data() + matrix.row_start(points[i]) + c * matrix.row_length(points[i]) + d;
               for (int j = 0; j < n; ++j)
-                row[positions[i * n + j] * n_fields] += block(i, j);
+                row[positions[i * n + j] * matrix.block_size()] += block(i, j);
             }
       }
 }

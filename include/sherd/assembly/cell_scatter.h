@@ -9,6 +9,7 @@
 #include <sherd/algebra/matrix.h>
 #include <sherd/algebra/vector.h>
 #include <sherd/assembly/tie_transfers.h>
+#include <sherd/forms/unknowns.h>
 #include <sherd/space/shell_space.h>
 
 namespace sherd
@@ -88,18 +89,20 @@ public:
           to.local()[points_[i] * n_fields + c] += from[i * n_fields + c];
   }
 
-  /// Adds the block rows of owned points.
-  void add(const Eigen::MatrixXd &from, Matrix &to) const
+  /// Adds the block rows of owned points to a matrix of the unknowns of a part.
+  void add(const Eigen::MatrixXd &from, Unknowns part, Matrix &to) const
   {
-    const auto n = points_.size();
+    const auto n      = points_.size();
+    const auto fields = fields_of(part, spacedim);
     for (std::size_t i = 0; i < n; ++i)
       if (const int point = points_[i]; point < n_owned_)
-        for (int c = 0; c < n_fields; ++c)
+        for (int c = 0; c < fields.count; ++c)
           {
             double *row = to.values().data() + to.row_start(point) + c * to.row_length(point);
             for (std::size_t j = 0; j < n; ++j)
-              for (int d = 0; d < n_fields; ++d)
-                row[positions_[i * n + j] * n_fields + d] += from(i * n_fields + c, j * n_fields + d);
+              for (int d = 0; d < fields.count; ++d)
+                row[positions_[i * n + j] * fields.count + d] +=
+                    from(i * n_fields + fields.first + c, j * n_fields + fields.first + d);
           }
   }
 

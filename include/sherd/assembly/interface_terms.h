@@ -37,15 +37,16 @@ public:
   /// @throws InvalidParameter   a toughness that is not positive: on all ranks
   InterfaceTerms(const Model &model, const ShellSpace<degree, spacedim> &space, const std::vector<Tie> &ties);
 
-  /// Adds the forces on the owned control points and the residuals of owned multipliers, block n_fields.
-  void add_force(const Vector &position, const Vector &phase, Vector &force) const;
+  /// Adds the forces on the owned control points and the residuals of owned multipliers, block n_fields, in the rows of
+  /// the part.
+  void add_force(const Vector &position, const Vector &phase, Unknowns part, Vector &force) const;
 
-  /// The same and the tangent.
-  void linearise(const Vector &position, const Vector &phase, Vector &force, Matrix &matrix) const;
+  /// The same and the tangent by the unknowns of the part.
+  void linearise(const Vector &position, const Vector &phase, Unknowns part, Vector &force, Matrix &matrix) const;
 
   /// Gives a mass matrix the rows and columns of the multipliers that keep accelerations of a surface at rest
-  /// compatible with the angles.
-  void constrain_acceleration(const Vector &position, Matrix &mass) const;
+  /// compatible with the angles. @param part   of the matrix; has the displacement
+  void constrain_acceleration(const Vector &position, Unknowns part, Matrix &mass) const;
 
   /// Sets 1 on the diagonal of every entry of the multipliers.
   void set_identity(Matrix &matrix) const;
@@ -96,7 +97,7 @@ private:
     Eigen::VectorXd force;
     Eigen::MatrixXd tangent;
   };
-  enum class Part
+  enum class Wanted
   {
     force,
     force_and_tangent,
@@ -104,9 +105,9 @@ private:
   };
 
   void   set_phase_terms(const Model &model, Cell &cell, double beta) const;
-  Arrays arrays(const Cell &cell, const Vector &position, const Vector &phase, Part part) const;
-  void   add_angle(const Cell &cell, const Vector &position, Part part, Arrays &arrays) const;
-  void   add_phase(const Cell &cell, const Vector &phase, Part part, Arrays &arrays) const;
+  Arrays arrays(const Cell &cell, const Vector &position, const Vector &phase, Unknowns part, Wanted wanted) const;
+  void   add_angle(const Cell &cell, const Vector &position, Wanted wanted, Arrays &arrays) const;
+  void   add_phase(const Cell &cell, const Vector &phase, Wanted wanted, Arrays &arrays) const;
 
   double            length_scale_;
   int               n_owned_;

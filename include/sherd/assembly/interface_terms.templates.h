@@ -78,7 +78,7 @@ void InterfaceTerms<Model>::set_phase_terms(const Model &model, Cell &cell, doub
 }
 
 template <class Model>
-void InterfaceTerms<Model>::add_angle(const Cell &cell, const Vector &position, Part part, Arrays &arrays) const
+void InterfaceTerms<Model>::add_angle(const Cell &cell, const Vector &position, Wanted wanted, Arrays &arrays) const
 {
   if constexpr (spacedim == 3)
     {
@@ -94,14 +94,14 @@ void InterfaceTerms<Model>::add_angle(const Cell &cell, const Vector &position, 
                                 : angle_penalty_force(cell.tables, x, cell.angle_stiffness);
       for (int c = 0; c < 3; ++c)
         gradient.col(c) = cell.scatter.to_masters(c, gradient.col(c));
-      if (part != Part::constraint_rows)
+      if (wanted != Wanted::constraint_rows)
         {
           for (int c = 0; c < 3; ++c)
             arrays.force(rows(c)) += (cell.has_multiplier() ? q : 1.) * gradient.col(c);
           if (cell.has_multiplier())
             arrays.force[multiplier] += angle_defect(cell.tables, x) - cell.angle_compliance * q;
         }
-      if (part == Part::force)
+      if (wanted == Wanted::force)
         return;
       if (cell.has_multiplier())
         {
@@ -112,7 +112,7 @@ void InterfaceTerms<Model>::add_angle(const Cell &cell, const Vector &position, 
             }
           arrays.tangent(multiplier, multiplier) -= cell.angle_compliance;
         }
-      if (part == Part::constraint_rows)
+      if (wanted == Wanted::constraint_rows)
         return;
       const Eigen::MatrixXd K = cell.has_multiplier() ? angle_multiplier_tangent(cell.tables, x, q)
                                                       : angle_penalty_tangent(cell.tables, x, cell.angle_stiffness);
@@ -124,18 +124,18 @@ void InterfaceTerms<Model>::add_angle(const Cell &cell, const Vector &position, 
 }
 
 template <class Model>
-void InterfaceTerms<Model>::add_phase(const Cell &cell, const Vector &phase, Part part, Arrays &arrays) const
+void InterfaceTerms<Model>::add_phase(const Cell &cell, const Vector &phase, Wanted wanted, Arrays &arrays) const
 {
   // Tied values are where their ties put them, so that R^T K R phi_free = R^T K phi.
   const auto n = cell.n(), multiplier = n * n_fields + spacedim;
   const auto rows = Eigen::seqN(spacedim, n, Eigen::fix<n_fields>);
-  if (part == Part::constraint_rows)
+  if (wanted == Wanted::constraint_rows)
     return;
   const auto phi = cell.scatter.phase(phase, cell.n());
   if (cell.phase_penalty.size() > 0)
     {
       arrays.force(rows) += (cell.phase_penalty * phi).eval();
-      if (part == Part::force_and_tangent)
+      if (wanted == Wanted::force_and_tangent)
         arrays.tangent(rows, rows) += cell.phase_penalty;
     }
   if (cell.has_phase_multiplier())
@@ -143,7 +143,7 @@ void InterfaceTerms<Model>::add_phase(const Cell &cell, const Vector &phase, Par
       const double q = phase.local()[cell.multiplier];
       arrays.force(rows) += q * cell.phase_jump;
       arrays.force[multiplier] += cell.phase_jump.dot(phi) - cell.phase_compliance * q;
-      if (part == Part::force_and_tangent)
+      if (wanted == Wanted::force_and_tangent)
         {
           arrays.tangent(rows, multiplier) += cell.phase_jump;
           arrays.tangent(multiplier, rows) += cell.phase_jump.transpose().eval();
@@ -153,18 +153,20 @@ void InterfaceTerms<Model>::add_phase(const Cell &cell, const Vector &phase, Par
 }
 
 template <class Model>
-auto InterfaceTerms<Model>::arrays(const Cell &cell, const Vector &position, const Vector &phase, Part part) const
-    -> Arrays
+auto InterfaceTerms<Model>::arrays(const Cell &cell, const Vector &position, const Vector &phase, Unknowns part,
+                                   Wanted wanted) const -> Arrays
 {
   const auto size = static_cast<Eigen::Index>(cell.scatter.points().size()) * n_fields;
   Arrays     result;
-  if (part != Part::constraint_rows)
+  if (wanted != Wanted::constraint_rows)
     result.force = Eigen::VectorXd::Zero(size);
-  if (part != Part::force)
+  if (wanted != Wanted::force)
     result.tangent = Eigen::MatrixXd::Zero(size, size);
-  add_angle(cell, position, part, result);
-  add_phase(cell, phase, part, result);
-  if (part != Part::force && cell.has_multiplier())
+  if (has_displacement(part))
+    add_angle(cell, position, wanted, result);
+  if (has_phase(part))
+    add_phase(cell, phase, wanted, result);
+  if (wanted != Wanted::force && cell.has_multiplier())
     for (int c = 0; c < n_fields; ++c)
       if (double &diagonal = result.tangent(cell.n() * n_fields + c, cell.n() * n_fields + c); diagonal == 0.)
         diagonal = 1.;
@@ -172,33 +174,34 @@ auto InterfaceTerms<Model>::arrays(const Cell &cell, const Vector &position, con
 }
 
 template <class Model>
-void InterfaceTerms<Model>::add_force(const Vector &position, const Vector &phase, Vector &force) const
+void InterfaceTerms<Model>::add_force(const Vector &position, const Vector &phase, Unknowns part, Vector &force) const
 {
   for (const auto &cell : cells_)
-    cell.scatter.add(arrays(cell, position, phase, Part::force).force, force);
+    cell.scatter.add(arrays(cell, position, phase, part, Wanted::force).force, force);
 }
 
 template <class Model>
-void InterfaceTerms<Model>::linearise(const Vector &position, const Vector &phase, Vector &force, Matrix &matrix) const
+void InterfaceTerms<Model>::linearise(const Vector &position, const Vector &phase, Unknowns part, Vector &force,
+                                      Matrix &matrix) const
 {
   for (const auto &cell : cells_)
     {
-      const auto result = arrays(cell, position, phase, Part::force_and_tangent);
+      const auto result = arrays(cell, position, phase, part, Wanted::force_and_tangent);
       cell.scatter.add(result.force, force);
-      cell.scatter.add(result.tangent, matrix);
+      cell.scatter.add(result.tangent, part, matrix);
     }
 }
 
 template <class Model>
-void InterfaceTerms<Model>::constrain_acceleration(const Vector &position, Matrix &mass) const
+void InterfaceTerms<Model>::constrain_acceleration(const Vector &position, Unknowns part, Matrix &mass) const
 {
   for (const int point : multipliers_)
     if (point < n_owned_)
-      for (int c = 0; c < n_fields; ++c)
+      for (int c = 0; c < mass.block_size(); ++c)
         mass.diagonal(point, c) = 0.;
   for (const auto &cell : cells_)
     if (cell.has_multiplier())
-      cell.scatter.add(arrays(cell, position, position, Part::constraint_rows).tangent, mass);
+      cell.scatter.add(arrays(cell, position, position, part, Wanted::constraint_rows).tangent, part, mass);
 }
 
 template <class Model>
@@ -206,7 +209,7 @@ void InterfaceTerms<Model>::set_identity(Matrix &matrix) const
 {
   for (const int point : multipliers_)
     if (point < n_owned_)
-      for (int c = 0; c < n_fields; ++c)
+      for (int c = 0; c < matrix.block_size(); ++c)
         matrix.diagonal(point, c) = 1.;
 }
 

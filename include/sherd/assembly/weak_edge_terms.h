@@ -34,11 +34,12 @@ public:
   WeakEdgeTerms(const Model &model, const ShellSpace<degree, spacedim> &space, const std::vector<Tie> &ties,
                 const std::vector<Supports::WeakEdge> &edges);
 
-  /// Adds the forces on the owned control points at @p time, block n_fields.
-  void add_force(const Vector &position, const Vector &phase, double time, Vector &force) const;
+  /// Adds the forces on the owned control points at @p time, block n_fields, in the rows of the part.
+  void add_force(const Vector &position, const Vector &phase, double time, Unknowns part, Vector &force) const;
 
-  /// The same and the tangent.
-  void linearise(const Vector &position, const Vector &phase, double time, Vector &force, Matrix &matrix) const;
+  /// The same and the tangent by the unknowns of the part.
+  void linearise(const Vector &position, const Vector &phase, double time, Unknowns part, Vector &force,
+                 Matrix &matrix) const;
 
   /// Adds the derivative of the forces by time.
   void add_force_rate(const Vector &position, double time, Vector &rate) const;
@@ -70,6 +71,7 @@ private:
     Eigen::MatrixXd       phase_penalty;  ///< shape=(n, n), with ties on both sides; or empty
 
     Eigen::Index n() const { return static_cast<Eigen::Index>(piece.points.size()); }
+    bool acts_on(Unknowns part) const { return phase_penalty.size() > 0 ? has_phase(part) : has_displacement(part); }
   };
 
   void                 add_cell(const Model &model, Geometry piece, Cell cell, double beta);

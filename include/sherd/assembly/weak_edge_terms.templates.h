@@ -177,21 +177,24 @@ Eigen::MatrixXd WeakEdgeTerms<Model>::tangent(const Cell &cell, const Vector &po
 }
 
 template <class Model>
-void WeakEdgeTerms<Model>::add_force(const Vector &position, const Vector &phase, double time, Vector &force) const
+void WeakEdgeTerms<Model>::add_force(const Vector &position, const Vector &phase, double time, Unknowns part,
+                                     Vector &force) const
 {
   for (const auto &cell : cells_)
-    cell.scatter.add(this->force(cell, position, phase, time), force);
+    if (cell.acts_on(part))
+      cell.scatter.add(this->force(cell, position, phase, time), force);
 }
 
 template <class Model>
-void WeakEdgeTerms<Model>::linearise(const Vector &position, const Vector &phase, double time, Vector &force,
-                                     Matrix &matrix) const
+void WeakEdgeTerms<Model>::linearise(const Vector &position, const Vector &phase, double time, Unknowns part,
+                                     Vector &force, Matrix &matrix) const
 {
   for (const auto &cell : cells_)
-    {
-      cell.scatter.add(this->force(cell, position, phase, time), force);
-      cell.scatter.add(tangent(cell, position, time), matrix);
-    }
+    if (cell.acts_on(part))
+      {
+        cell.scatter.add(this->force(cell, position, phase, time), force);
+        cell.scatter.add(tangent(cell, position, time), part, matrix);
+      }
 }
 
 template <class Model>

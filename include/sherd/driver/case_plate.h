@@ -8,6 +8,7 @@ namespace sherd
 {
 
 SHERD_CASE_ASSEMBLER(extern, 2, 2)
+SHERD_CASE_HALVES(extern, 2, 2)
 SHERD_CASE_SOLVERS(extern, 2, 2)
 
 } // namespace sherd

@@ -2,6 +2,7 @@
 
 #include <sherd/base/types.h>
 #include <sherd/forms/dense_product.h>
+#include <sherd/forms/unknowns.h>
 #include <sherd/geometry/shape_values.h>
 
 namespace sherd
@@ -27,13 +28,15 @@ struct ElementVector
   alignas(64) double value[Model::n_fields][n_b];
 };
 
-/// Element matrix in Bernstein form: row field*n_b + b, column likewise. Columns are padded to whole vector registers;
-/// the padding holds zeros.
-template <class Model>
+/// Element matrix of a part of the unknowns in Bernstein form: row field*n_b + b with fields counted from the first of
+/// the part, column likewise. Columns are padded to whole vector registers; the padding holds zeros.
+template <class Model, Unknowns part = Unknowns::all>
 struct ElementMatrix
 {
+  static constexpr FieldRange fields = fields_of(part, Model::spacedim);
+
   static constexpr int n_b    = ShapeValues<Model::degree>::n_functions;
-  static constexpr int size   = Model::n_fields * n_b;
+  static constexpr int size   = fields.count * n_b;
   static constexpr int stride = (size + 7) / 8 * 8;
 
   alignas(64) double value[size][stride];

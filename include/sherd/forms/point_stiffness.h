@@ -98,12 +98,12 @@ enum class Symmetry
 };
 
 /// Symmetric or skew part of a tangent.
-inline Tangent<2> part(const Tangent<2> &D, Symmetry symmetry)
+inline Tangent<2> part_of(const Tangent<2> &D, Symmetry symmetry)
 {
   const double sign = symmetry == Symmetry::symmetric ? .5 : -.5;
   return {.5 * D.membrane + sign * D.membrane.transpose()};
 }
-inline Tangent<3> part(const Tangent<3> &D, Symmetry symmetry)
+inline Tangent<3> part_of(const Tangent<3> &D, Symmetry symmetry)
 {
   const double sign     = symmetry == Symmetry::symmetric ? .5 : -.5;
   const Voigt4 coupling = .5 * D.coupling + sign * D.moment_coupling.transpose();

@@ -95,20 +95,21 @@ void add_pressure(const ElementData<Model> &data, const ElementFields<Model> &fi
 /// The displacement block is the theory's p N_A (a^a (x) n - n (x) a^a) N_B,a da, written without the normal; it is not
 /// symmetric, and the phase row is empty.
 ///
-/// @param stiffness   row i*n_b + A, column j*n_b + B, as in element_tangent
+/// @param stiffness   row i*n_b + A, column j*n_b + B, as in element_tangent; has the displacement
 ///
 /// Source: theory E.3.
-template <class Model>
+template <class Model, Unknowns part>
 void add_pressure_tangent(const ElementData<Model> &data, const ElementFields<Model> &fields,
-                          const ElementPressure<Model> &pressure, ElementMatrix<Model> &stiffness)
+                          const ElementPressure<Model> &pressure, ElementMatrix<Model, part> &stiffness)
 {
   static_assert(Model::spacedim == 3, "a pressure acts on shells in space");
+  static_assert(has_displacement(part), "a pressure does not drive the phase");
   constexpr int n_b    = ElementMatrix<Model>::n_b;
   constexpr int n_q    = ShapeValues<Model::degree>::n_points;
   constexpr int n_u    = 3 * n_b;
   constexpr int pad_u  = padded(n_u);
   constexpr int pad_b  = padded(n_b);
-  constexpr int stride = ElementMatrix<Model>::stride;
+  constexpr int stride = ElementMatrix<Model, part>::stride;
 
   std::optional<ShapeValues<Model::degree>> storage;
   const auto                               &s = data.geometry.shapes(storage);
@@ -131,16 +132,18 @@ void add_pressure_tangent(const ElementData<Model> &data, const ElementFields<Mo
           }
     }
 
-  alignas(64) double couple[n_u][pad_b] = {}; // displacement by phase
-  add_product<pad_b>(n_u, n_q, {slope[0], 1, pad_u}, value[0], pad_b, couple[0], pad_b);
-
   alignas(64) double turn[n_b][pad_u] = {}; // int N_A axis_B
   add_product<pad_u>(n_b, n_q, {value[0], 1, pad_b}, axis[0], pad_u, turn[0], pad_u);
 
   double *const K = stiffness.value[0];
-  for (int k = 0; k < n_u; ++k)
-    for (int b = 0; b < n_b; ++b)
-      K[k * stride + n_u + b] += couple[k][b];
+  if constexpr (has_phase(part))
+    {
+      alignas(64) double couple[n_u][pad_b] = {}; // displacement by phase
+      add_product<pad_b>(n_u, n_q, {slope[0], 1, pad_u}, value[0], pad_b, couple[0], pad_b);
+      for (int k = 0; k < n_u; ++k)
+        for (int b = 0; b < n_b; ++b)
+          K[k * stride + n_u + b] += couple[k][b];
+    }
   for (int d = 0; d < 3; ++d)
     {
       const int i = (d + 1) % 3, j = (d + 2) % 3; // [v]_x has v_d at (j, i) and -v_d at (i, j)

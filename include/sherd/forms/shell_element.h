@@ -20,24 +20,26 @@ enum class PhaseTangent
 /// with w of the crack density, w'/2 = phi - 1 for those of second and fourth order, and the resistance r of the
 /// irreversibility against healing.
 ///
+/// @tparam part     of the unknowns; rows of the others get 0
 /// @param history   accepted H at the quadrature points, shape=(n_q)
 /// @param force     overwritten
 ///
 /// Source: theory E.1; paper Eqs. (5), (12).
-template <class Model>
+template <Unknowns part = Unknowns::all, class Model>
 void element_force(const Model &model, const ElementData<Model> &data, const ElementFields<Model> &fields,
                    const double *history, ElementVector<Model> &force);
 
-/// The same, and its tangent with respect to (x, phi); mass_weight rho N_A N_B is added to the displacement block
-/// (theory E.2, F.2). The phase row has the derivative of H where it loads.
+/// The same, and its tangent with respect to the unknowns of the part; mass_weight rho N_A N_B is added to the
+/// displacement block (theory E.2, F.2). The phase row has the derivative of H where it loads.
 ///
-/// @param matrix   overwritten; d force[i][A] / d field j of B at row i*n_b + A, column j*n_b + B
+/// @param matrix   overwritten; d force[i][A] / d field j of B at row i*n_b + A, column j*n_b + B, with i and j counted
+///                 from the first field of the part
 ///
 /// Source: theory E.1, E.2.
-template <class Model>
+template <class Model, Unknowns part>
 void element_tangent(const Model &model, const ElementData<Model> &data, const ElementFields<Model> &fields,
                      const double *history, double mass_weight, PhaseTangent phase_tangent, ElementVector<Model> &force,
-                     ElementMatrix<Model> &matrix);
+                     ElementMatrix<Model, part> &matrix);
 
 } // namespace sherd
 

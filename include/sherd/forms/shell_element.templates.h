@@ -30,36 +30,42 @@ struct ForceSum
 
 /// Adds quadrature point @p q: the coefficients of N and of its derivatives in the weak form, times these.
 /// @param total   stress of the damaged surface times dA
-template <class Model>
+template <Unknowns part, class Model>
 void add_point_force(const Model &model, const ElementData<Model> &data, const ShapeValues<Model::degree> &s,
                      const PointState<Model> &p, const Stress<Model::spacedim> &total, int q, ForceSum<Model> &force)
 {
   constexpr int dim       = Model::spacedim;
   const auto   &reference = data.geometry.reference[q];
   const double  dA        = reference.dA;
-  const double  l0        = model.length_scale;
-  const double  stiffness = data.toughness[q] / (2. * l0) * dA;
-  const auto   &A         = reference.contravariant;
-  const double  c1        = stiffness * model.crack_density.c1(l0);
-  const double  bend      = stiffness * model.crack_density.c2(l0) * p.laplacian;
 
   FieldPack n{}, n1{}, n2{}, n11{}, n22{}, n12{};
-  n[dim] = (model.degradation.first(p.phi) * p.driving + p.resistance) * dA +
-           stiffness * (.5 * model.crack_density.local_first(p.phi));
-  n1[dim]  = c1 * (A[0] * p.phi_1 + A[2] * p.phi_2) - bend * reference.laplace_1;
-  n2[dim]  = c1 * (A[2] * p.phi_1 + A[1] * p.phi_2) - bend * reference.laplace_2;
-  n11[dim] = bend * A[0];
-  n22[dim] = bend * A[1];
-  n12[dim] = 2. * bend * A[2];
-
-  const Voigt &tau = total.membrane;
-  for (int d = 0; d < dim; ++d)
+  if constexpr (has_phase(part))
     {
-      n[d]  = dA * model.mass * p.inertia[d];
-      n1[d] = tau[0] * p.frame.a1[d] + tau[2] * p.frame.a2[d];
-      n2[d] = tau[2] * p.frame.a1[d] + tau[1] * p.frame.a2[d];
+      const double l0        = model.length_scale;
+      const double stiffness = data.toughness[q] / (2. * l0) * dA;
+      const auto  &A         = reference.contravariant;
+      const double c1        = stiffness * model.crack_density.c1(l0);
+      const double bend      = stiffness * model.crack_density.c2(l0) * p.laplacian;
+
+      n[dim] = (model.degradation.first(p.phi) * p.driving + p.resistance) * dA +
+               stiffness * (.5 * model.crack_density.local_first(p.phi));
+      n1[dim]  = c1 * (A[0] * p.phi_1 + A[2] * p.phi_2) - bend * reference.laplace_1;
+      n2[dim]  = c1 * (A[2] * p.phi_1 + A[1] * p.phi_2) - bend * reference.laplace_2;
+      n11[dim] = bend * A[0];
+      n22[dim] = bend * A[1];
+      n12[dim] = 2. * bend * A[2];
     }
-  if constexpr (dim == 3)
+  if constexpr (has_displacement(part))
+    {
+      const Voigt &tau = total.membrane;
+      for (int d = 0; d < dim; ++d)
+        {
+          n[d]  = dA * model.mass * p.inertia[d];
+          n1[d] = tau[0] * p.frame.a1[d] + tau[2] * p.frame.a2[d];
+          n2[d] = tau[2] * p.frame.a1[d] + tau[1] * p.frame.a2[d];
+        }
+    }
+  if constexpr (dim == 3 && has_displacement(part))
     {
       // M^ab N;ab = M^ab N,ab - (M^ab Gamma^c_ab) N,c
       const Voigt &M  = total.moment;
@@ -81,7 +87,7 @@ void add_point_force(const Model &model, const ElementData<Model> &data, const S
 
 } // namespace internal
 
-template <class Model>
+template <Unknowns part, class Model>
 void element_force(const Model &model, const ElementData<Model> &data, const ElementFields<Model> &fields,
                    const double *history, ElementVector<Model> &force)
 {
@@ -93,17 +99,17 @@ void element_force(const Model &model, const ElementData<Model> &data, const Ele
     {
       const auto p     = evaluate_point(model, data, interpolation.at(s, q), history[q], q);
       const auto total = data.geometry.reference[q].dA * degraded_stress(p.response, model.degradation.value(p.phi));
-      internal::add_point_force(model, data, s, p, total, q, sum);
+      internal::add_point_force<part>(model, data, s, p, total, q, sum);
     }
   sum.store(force);
 }
 
-template <class Model>
+template <class Model, Unknowns part>
 void element_tangent(const Model &model, const ElementData<Model> &data, const ElementFields<Model> &fields,
                      const double *history, double mass_weight, PhaseTangent phase_tangent, ElementVector<Model> &force,
-                     ElementMatrix<Model> &matrix)
+                     ElementMatrix<Model, part> &matrix)
 {
-  using Tables = internal::TangentTables<Model>;
+  using Tables = internal::TangentTables<Model, part>;
   std::optional<ShapeValues<Model::degree>> storage;
   const auto                               &s = data.geometry.shapes(storage);
   const FieldInterpolation<Model>           interpolation(fields);
@@ -124,7 +130,7 @@ void element_tangent(const Model &model, const ElementData<Model> &data, const E
           const double g1      = model.degradation.first(p.phi);
           const auto   total   = dA * degraded_stress(p.response, g);
           const bool   loading = model.irreversibility.is_loading(history[q], p.response.energy_active);
-          internal::add_point_force(model, data, s, p, total, q, sum);
+          internal::add_point_force<part>(model, data, s, p, total, q, sum);
 
           const double stiffness = Gc / (2. * l0) * dA;
           const double local =
@@ -132,12 +138,19 @@ void element_tangent(const Model &model, const ElementData<Model> &data, const E
                   ? branch::stiffness(model.degradation, model.crack_density, p.driving, p.phi, Gc, l0)
                   : branch::switched_stiffness(model.degradation, model.crack_density, p.driving, p.phi, Gc, l0);
           const double kappa = dA * (local + Gc / l0 * model.irreversibility.resistance_stiffness(history[q], p.phi));
-          tables.set(k, p.frame, dA * degraded_tangent(p.response, g), total,
+          Tangent<Model::spacedim> tangent;
+          if constexpr (has_displacement(part))
+            tangent = dA * degraded_tangent(p.response, g);
+          internal::PointSlope<Model::spacedim> coupling{}, driving{};
+          if constexpr (part == Unknowns::all)
+            {
+              coupling = internal::point_slope(p.frame, dA * g1 * p.response.stress_active);
+              driving  = internal::point_slope(p.frame, (loading ? dA * g1 : 0.) * p.response.driving);
+            }
+          tables.set(k, p.frame, tangent, total,
                      internal::phase_stiffness(data.geometry.reference[q], stiffness * model.crack_density.c1(l0),
                                                stiffness * model.crack_density.c2(l0)),
-                     kappa, mass_weight * model.mass * dA,
-                     internal::point_slope(p.frame, dA * g1 * p.response.stress_active),
-                     internal::point_slope(p.frame, (loading ? dA * g1 : 0.) * p.response.driving));
+                     kappa, mass_weight * model.mass * dA, coupling, driving);
         }
       tables.multiply();
     }

@@ -111,15 +111,17 @@ struct ShapeTables : TableSizes<Model>
 };
 
 /// What the tangent has by derivatives of shape functions on both sides: runs of the phase and of each pair of
-/// displacements. In the plane the displacements have first derivatives only.
-template <class Model>
+/// displacements, as far as the part has them. In the plane the displacements have first derivatives only.
+template <class Model, Unknowns part>
 struct DerivativeTables : TableSizes<Model>
 {
   using Sizes = TableSizes<Model>;
   using Sizes::dim, Sizes::n_b, Sizes::n_points, Sizes::pairs, Sizes::pad_b;
 
-  static constexpr int of_first = 1 + pairs, of_second = dim == 2 ? 1 : of_first;
-  static constexpr int stride = Sizes::stride(of_first), stride_second = Sizes::stride(of_second);
+  static constexpr int of_phase  = has_phase(part) ? 1 : 0; // runs
+  static constexpr int of_first  = of_phase + (has_displacement(part) ? pairs : 0);
+  static constexpr int of_second = dim == 2 ? of_phase : of_first;
+  static constexpr int stride = Sizes::stride(of_first), stride_second = Sizes::stride(std::max(of_second, 1));
   static_assert(stride >= Sizes::columns(of_first));
 
   alignas(64) double first[2][n_points][stride];         ///< index order [derivative][point][column]
@@ -139,16 +141,20 @@ struct DerivativeTables : TableSizes<Model>
   {
     for (int r = 0; r < 2; ++r)
       {
-        shapes.template store<n_derivatives>(phase[r], first[r][k]);
-        for (int pair = 0; pair < pairs; ++pair)
-          shapes.template store<dim == 2 ? 2 : n_derivatives>(displacement[pair][r], first[r][k] + (1 + pair) * n_b);
+        if constexpr (has_phase(part))
+          shapes.template store<n_derivatives>(phase[r], first[r][k]);
+        if constexpr (has_displacement(part))
+          for (int pair = 0; pair < pairs; ++pair)
+            shapes.template store<dim == 2 ? 2 : n_derivatives>(displacement[pair][r],
+                                                                first[r][k] + (of_phase + pair) * n_b);
       }
     for (int r = 0; r < 3; ++r)
       {
-        shapes.template store<n_derivatives>(phase[2 + r], second[r][k]);
-        if constexpr (dim == 3)
+        if constexpr (has_phase(part))
+          shapes.template store<n_derivatives>(phase[2 + r], second[r][k]);
+        if constexpr (dim == 3 && has_displacement(part))
           for (int pair = 0; pair < pairs; ++pair)
-            shapes.template store<n_derivatives>(displacement[pair][2 + r], second[r][k] + (1 + pair) * n_b);
+            shapes.template store<n_derivatives>(displacement[pair][2 + r], second[r][k] + (of_phase + pair) * n_b);
       }
   }
 
@@ -158,23 +164,25 @@ struct DerivativeTables : TableSizes<Model>
     // In space both tables are as wide as each other and one behind the other.
     constexpr int depth = dim == 2 ? 2 * n_points : n_derivatives * n_points;
     add_product<Sizes::columns(of_first)>(n_b, depth, left(0), first[0][0], stride, sum[0], stride);
-    if constexpr (dim == 2)
+    if constexpr (dim == 2 && has_phase(part))
       add_product<Sizes::columns(of_second)>(n_b, 3 * n_points, left(2), second[0][0], stride_second, sum[0], stride);
   }
 
   const double *phase_row(int a) const { return sum[a]; }
-  const double *pair_row(int a, int pair) const { return sum[a] + (1 + pair) * n_b; }
+  const double *pair_row(int a, int pair) const { return sum[a] + (of_phase + pair) * n_b; }
 };
 
 /// What the tangent has by shape functions on one side: runs of the phase, the mass, the stress by strain and the
-/// driving force by strain, the latter two for each component of the displacement.
-template <class Model>
+/// driving force by strain, the latter two for each component of the displacement, as far as the part has them.
+template <class Model, Unknowns part>
 struct ValueTables : TableSizes<Model>
 {
   using Sizes = TableSizes<Model>;
   using Sizes::dim, Sizes::n_b, Sizes::n_points, Sizes::pad_b;
 
-  static constexpr int runs = 2 + 2 * dim, stride = Sizes::stride(runs);
+  static constexpr int of_phase = has_phase(part) ? 1 : 0, of_mass = has_displacement(part) ? 1 : 0; // runs
+  static constexpr int first_slope = of_phase + of_mass;
+  static constexpr int runs = first_slope + (part == Unknowns::all ? 2 * dim : 0), stride = Sizes::stride(runs);
   static_assert(stride >= Sizes::columns(runs));
 
   alignas(64) double value[n_points][stride];
@@ -184,12 +192,17 @@ struct ValueTables : TableSizes<Model>
            const PointSlope<dim> &coupling, const PointSlope<dim> &driving)
   {
     constexpr int count = dim == 2 ? 2 : n_derivatives;
-    shapes.store_value(phase, value[k]);
-    shapes.store_value(mass, value[k] + n_b);
-    for (int i = 0; i < dim; ++i)
-      shapes.template store<count>(coupling[i], value[k] + (2 + i) * n_b);
-    for (int i = 0; i < dim; ++i)
-      shapes.template store<count>(driving[i], value[k] + (2 + dim + i) * n_b);
+    if constexpr (has_phase(part))
+      shapes.store_value(phase, value[k]);
+    if constexpr (has_displacement(part))
+      shapes.store_value(mass, value[k] + of_phase * n_b);
+    if constexpr (part == Unknowns::all)
+      {
+        for (int i = 0; i < dim; ++i)
+          shapes.template store<count>(coupling[i], value[k] + (first_slope + i) * n_b);
+        for (int i = 0; i < dim; ++i)
+          shapes.template store<count>(driving[i], value[k] + (first_slope + dim + i) * n_b);
+      }
   }
 
   void multiply(const ShapeTables<Model> &shapes)
@@ -198,13 +211,13 @@ struct ValueTables : TableSizes<Model>
   }
 
   const double *phase_row(int a) const { return sum[a]; }
-  const double *mass_row(int a) const { return sum[a] + n_b; }
-  const double *coupling_row(int a) const { return sum[a] + 2 * n_b; }        ///< by components, then functions
-  const double *driving_row(int a) const { return sum[a] + (2 + dim) * n_b; } ///< the same
+  const double *mass_row(int a) const { return sum[a] + of_phase * n_b; }
+  const double *coupling_row(int a) const { return sum[a] + first_slope * n_b; } ///< by components, then functions
+  const double *driving_row(int a) const { return sum[a] + (first_slope + dim) * n_b; } ///< the same
 };
 
-/// Tables of the tangent of one element and their sums.
-template <class Model>
+/// Tables of the tangent of one element by the unknowns of a part and their sums.
+template <class Model, Unknowns part>
 class TangentTables : TableSizes<Model>
 {
 public:
@@ -224,7 +237,7 @@ public:
     skew_here_ = false;
   }
 
-  /// Adds a point.
+  /// Adds a point. What the part does not have is not used.
   /// @param D       dA c^abcd and so on
   /// @param total   stress times dA
   void set(int k, const SurfaceFrame<dim> &frame, const Tangent<dim> &D, const Stress<dim> &total,
@@ -233,18 +246,24 @@ public:
   {
     const auto shapes = shapes_->at(k);
     values_.set(k, shapes, phase_value, mass, coupling, driving);
-    const bool unsymmetric = is_unsymmetric(D);
-    symmetric_.set(k, shapes, phase_stiffness,
-                   point_stiffness(frame, unsymmetric ? part(D, Symmetry::symmetric) : D, total, Symmetry::symmetric));
-    if (unsymmetric)
+    if constexpr (!has_displacement(part))
+      symmetric_.set(k, shapes, phase_stiffness, {});
+    else
       {
-        if (!skew_here_)
-          skew_tables_.clear_points();
-        if (!has_skew_)
-          skew_tables_.clear_sum();
-        skew_here_ = has_skew_ = true;
-        skew_tables_.set(k, shapes, {},
-                         point_stiffness(frame, part(D, Symmetry::skew), Stress<dim>::zero(), Symmetry::skew));
+        const bool unsymmetric = is_unsymmetric(D);
+        symmetric_.set(
+            k, shapes, phase_stiffness,
+            point_stiffness(frame, unsymmetric ? part_of(D, Symmetry::symmetric) : D, total, Symmetry::symmetric));
+        if (unsymmetric)
+          {
+            if (!skew_here_)
+              skew_tables_.clear_points();
+            if (!has_skew_)
+              skew_tables_.clear_sum();
+            skew_here_ = has_skew_ = true;
+            skew_tables_.set(k, shapes, {},
+                             point_stiffness(frame, part_of(D, Symmetry::skew), Stress<dim>::zero(), Symmetry::skew));
+          }
       }
   }
 
@@ -256,9 +275,30 @@ public:
       skew_tables_.multiply(*shapes_);
   }
 
-  void store(ElementMatrix<Model> &matrix) const
+  void store(ElementMatrix<Model, part> &matrix) const
   {
-    constexpr int n_u = dim * n_b;
+    if constexpr (has_displacement(part))
+      store_displacement(matrix);
+    constexpr int n_u = has_displacement(part) ? dim * n_b : 0;
+    if constexpr (has_phase(part))
+      for (int a = 0; a < n_b; ++a)
+        {
+          double *row = matrix.value[n_u + a];
+          for (int k = 0; k < n_u; ++k)
+            {
+              matrix.value[k][n_u + a] = values_.coupling_row(a)[k];
+              row[k]                   = values_.driving_row(a)[k];
+            }
+          for (int b = 0; b < n_b; ++b)
+            row[n_u + b] = values_.phase_row(a)[b] + symmetric_.phase_row(a)[b];
+        }
+    for (auto &row : matrix.value)
+      std::fill(row + matrix.size, row + matrix.stride, 0.);
+  }
+
+private:
+  void store_displacement(ElementMatrix<Model, part> &matrix) const
+  {
     for (int i = 0, pair = 0; i < dim; ++i)
       for (int j = i; j < dim; ++j, ++pair)
         for (int a = 0; a < n_b; ++a)
@@ -283,30 +323,16 @@ public:
                 if (i != j)
                   matrix.value[j * n_b + b][i * n_b + a] -= entry;
               }
-    for (int a = 0; a < n_b; ++a)
-      {
-        double *row = matrix.value[n_u + a];
-        for (int k = 0; k < n_u; ++k)
-          {
-            matrix.value[k][n_u + a] = values_.coupling_row(a)[k];
-            row[k]                   = values_.driving_row(a)[k];
-          }
-        for (int b = 0; b < n_b; ++b)
-          row[n_u + b] = values_.phase_row(a)[b] + symmetric_.phase_row(a)[b];
-      }
-    for (auto &row : matrix.value)
-      std::fill(row + matrix.size, row + matrix.stride, 0.);
   }
 
-private:
   const ElementGeometry<Model::degree, Model::spacedim> *geometry_;
   const ShapeTables<Model>                              *shapes_ = nullptr;
 
-  ShapeTables<Model>      rational_shapes_;
-  ValueTables<Model>      values_;
-  DerivativeTables<Model> symmetric_, skew_tables_;
-  bool                    skew_here_ = false; ///< at a point of those set since begin()
-  bool                    has_skew_  = false; ///< at any point
+  ShapeTables<Model>            rational_shapes_;
+  ValueTables<Model, part>      values_;
+  DerivativeTables<Model, part> symmetric_, skew_tables_;
+  bool                          skew_here_ = false; ///< at a point of those set since begin()
+  bool                          has_skew_  = false; ///< at any point
 };
 
 } // namespace sherd::internal

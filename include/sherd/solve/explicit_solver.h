@@ -20,17 +20,17 @@ namespace sherd
 ///
 /// Unknowns that a support moves get the rates of three points of its path in the step. Ties act on increments; masses
 /// of tied unknowns go to their masters. Interfaces have to be kept together by penalties, since multipliers have no
-/// mass. Kinetic energy and work are those of the lumped mass; the work is that of the mean of the forces at both ends
-/// of the step. n_NR counts the iterations for the phase.
+/// mass. No matrix is made in a step but that of the phase. Kinetic energy and work are those of the lumped mass; the
+/// work is that of the mean of the forces at both ends of the step. n_NR counts the iterations for the phase.
 ///
 /// The arguments of the constructor have to outlive the solver.
 ///
 /// Source: theory F.5.
 template <class Model>
-class ExplicitSolver : public SolverBase<Model>
+class ExplicitSolver : public SolverBase<Model, Unknowns::phase>
 {
 public:
-  using Base                    = SolverBase<Model>;
+  using Base                    = SolverBase<Model, Unknowns::phase>;
   using StateType               = typename Base::StateType;
   using Result                  = typename Base::Result;
   static constexpr int spacedim = Model::spacedim;
@@ -46,6 +46,7 @@ public:
   void rebuild(const StateType &state);
 
   /// Solves M_L a = f_ext - f_int at the time of @p state. Collective.
+  /// @throws InvalidParameter   a velocity that the supports do not allow, complete_velocity()
   void set_initial_acceleration(StateType &state);
 
   /// Attempts the step from @p state to state.time + dt. Collective. Throws only what no smaller step could mend.
@@ -64,7 +65,7 @@ private:
   struct Forces
   {
     Vector position; ///< where
-    Vector total;    ///< internal and inertial, block n_fields
+    Vector total;    ///< internal and inertial, and the residual of the phase, block n_fields
     Vector external; ///< block n_fields
     double time;
   };
@@ -76,7 +77,8 @@ private:
   void   estimate_largest_step(const StateType &state);
   double inertial_work(const Vector &acceleration, const Vector &displacement) const;
 
-  std::optional<Vector> mass_; ///< lumped, 0 where tied, block n_fields
+  std::optional<Matrix> stiffness_; ///< of the displacement; for the estimate of the largest step
+  std::optional<Vector> mass_;      ///< lumped, 0 where tied, block spacedim
   double                largest_step_ = 0.;
   int                   n_steps_      = 0; ///< since the last estimate
   std::optional<Forces> start_, end_;      ///< of the last attempt, for its work

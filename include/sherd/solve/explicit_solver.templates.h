@@ -21,12 +21,13 @@ void ExplicitSolver<Model>::rebuild(const StateType &state)
                            " multipliers, which have no mass; use continuity::Penalty or an implicit solver");
   Base::rebuild(state);
   const auto timing = this->timers().measure("set-up");
-  this->assembler().mass_matrix(this->newton_.matrix());
-  mass_                 = lumped_mass(this->newton_.matrix());
+  stiffness_.emplace(this->assembler().make_matrix(Unknowns::displacement));
+  this->assembler().template part_mass_matrix<Unknowns::displacement>(*stiffness_);
+  mass_                 = lumped_mass(*stiffness_);
   const auto &supported = this->equations_.supported();
-  for (std::size_t k = 0; k < supported.fixed().size(); ++k)
-    if (supported.fixed()[k] && !supported.is_held(k))
-      mass_->local()[k] = 0.;
+  for (std::size_t i = 0; i < mass_->owned().size(); ++i)
+    if (const auto k = i / spacedim * n_fields + i % spacedim; supported.fixed()[k] && !supported.is_held(k))
+      mass_->local()[i] = 0.;
   start_.reset();
   end_.reset();
   estimate_largest_step(state);
@@ -38,14 +39,13 @@ void ExplicitSolver<Model>::estimate_largest_step(const StateType &state)
   const auto timing = this->timers().measure("stable step");
   Vector     force(state.distribution, n_fields), external = force, rest = state.acceleration;
   rest.fill(0.);
-  auto &stiffness = this->newton_.matrix();
-  this->newton_.forget_tangent();
-  this->assembler().linearise({state.position, rest, state.phase}, state.history, 0., PhaseTangent::consistent,
-                              this->assembler().evaluate(this->loads(), state.time), force, external, stiffness);
-  std::vector<char> free = this->equations_.supported().fixed();
-  for (std::size_t k = 0; k < free.size(); ++k)
-    free[k] = free[k] || k % n_fields == spacedim ? 0 : 1;
-  largest_step_ = 2. / std::sqrt(eigenvalue_bound(stiffness, *mass_, free));
+  this->assembler().template linearise_part<Unknowns::displacement>(
+      {state.position, rest, state.phase}, state.history, 0., PhaseTangent::consistent,
+      this->assembler().evaluate(this->loads(), state.time), force, external, *stiffness_);
+  std::vector<char> free(mass_->owned().size());
+  for (std::size_t i = 0; i < free.size(); ++i)
+    free[i] = !this->equations_.supported().fixed()[i / spacedim * n_fields + i % spacedim];
+  largest_step_ = 2. / std::sqrt(eigenvalue_bound(*stiffness_, *mass_, free));
   n_steps_      = 0;
 }
 
@@ -56,8 +56,8 @@ auto ExplicitSolver<Model>::forces_at_rest(const Vector &position, const Vector 
   Vector rest = position;
   rest.fill(0.);
   Vector total(phase.shared_distribution(), n_fields), external = total;
-  this->assembler().force({position, rest, phase}, history, this->assembler().evaluate(this->loads(), time), total,
-                          external);
+  this->assembler().template part_force<Unknowns::displacement>(
+      {position, rest, phase}, history, this->assembler().evaluate(this->loads(), time), total, external);
   return {position, std::move(total), std::move(external), time};
 }
 
@@ -66,25 +66,23 @@ void ExplicitSolver<Model>::add_inertia(Forces &forces, const Vector &accelerati
 {
   for (int a = 0; a < acceleration.distribution().n_owned(); ++a)
     for (int c = 0; c < spacedim; ++c)
-      if (const int k = a * n_fields + c; mass_->local()[k] > 0.)
-        forces.total.local()[k] += mass_->local()[k] * acceleration.local()[a * spacedim + c];
+      if (const int i = a * spacedim + c; mass_->local()[i] > 0.)
+        forces.total.local()[a * n_fields + c] += mass_->local()[i] * acceleration.local()[i];
 }
 
 template <class Model>
 void ExplicitSolver<Model>::set_initial_acceleration(StateType &state)
 {
-  const auto  timing = this->timers().measure("initial state");
+  const auto timing = this->timers().measure("initial state");
+  this->equations_.supported().check_velocity(state.velocity);
   const auto  forces = forces_at_rest(state.position, state.phase, state.history, state.time);
   const auto &fixed  = this->equations_.supported().fixed();
-  Vector      rate(state.distribution, n_fields);
-  for (std::size_t k = 0; k < fixed.size(); ++k)
-    if (!fixed[k] && k % n_fields != spacedim)
-      rate.local()[k] = (forces.external.local()[k] - forces.total.local()[k]) / mass_->local()[k];
-  rate.update_ghosts();
-  this->equations_.supported().complete(rate);
-  for (int a = 0; a < state.distribution->n_local(); ++a)
-    for (int c = 0; c < spacedim; ++c)
-      state.acceleration.local()[a * spacedim + c] = rate.local()[a * n_fields + c];
+  state.acceleration.fill(0.);
+  for (std::size_t i = 0; i < mass_->owned().size(); ++i)
+    if (const auto k = i / spacedim * n_fields + i % spacedim; !fixed[k])
+      state.acceleration.local()[i] = (forces.external.local()[k] - forces.total.local()[k]) / mass_->local()[i];
+  state.acceleration.update_ghosts();
+  this->equations_.supported().complete(state.acceleration);
 }
 
 template <class Model>
@@ -96,34 +94,31 @@ void ExplicitSolver<Model>::balance(Forces &forces, const StateType &state, Moti
   const Vector at_start  = supported.moves(state.position, state.time),
                at_middle = supported.moves(state.position, state.time + .5 * dt),
                at_end    = supported.moves(state.position, state.time + dt);
-  Vector     rate(state.distribution, n_fields), correction = rate;
-  const auto index = [](std::size_t k) { return k / n_fields * spacedim + k % n_fields; };
-  for (std::size_t k = 0; k < supported.fixed().size(); ++k)
+  Vector rate(state.distribution, spacedim), correction = rate;
+  for (std::size_t i = 0; i < mass_->owned().size(); ++i)
     {
-      if (k % n_fields == spacedim || (supported.fixed()[k] && !supported.is_held(k)))
+      const auto k = i / spacedim * n_fields + i % spacedim;
+      if (supported.fixed()[k] && !supported.is_held(k))
         continue;
-      const auto   i    = index(k);
       const double u[3] = {at_start.local()[i], at_middle.local()[i], at_end.local()[i]};
       const double a    = supported.is_held(k)
                               ? 4. * (u[0] - 2. * u[1] + u[2]) / (dt * dt)
-                              : (forces.external.local()[k] - forces.total.local()[k]) / mass_->local()[k];
-      rate.local()[k]   = a - next.acceleration.local()[i];
+                              : (forces.external.local()[k] - forces.total.local()[k]) / mass_->local()[i];
+      rate.local()[i]   = a - next.acceleration.local()[i];
       if (supported.is_held(k))
-        correction.local()[k] =
-            (3. * u[2] - 4. * u[1] + u[0]) / dt - (next.velocity.local()[i] + stage.gamma * dt * rate.local()[k]);
+        correction.local()[i] =
+            (3. * u[2] - 4. * u[1] + u[0]) / dt - (next.velocity.local()[i] + stage.gamma * dt * rate.local()[i]);
     }
   for (Vector *values : {&rate, &correction})
     {
       values->update_ghosts();
       supported.complete(*values);
     }
-  for (int a = 0; a < state.distribution->n_local(); ++a)
-    for (int c = 0; c < spacedim; ++c)
-      {
-        const auto i = a * spacedim + c;
-        accelerate(stage, next, i, next.acceleration.local()[i] + rate.local()[a * n_fields + c]);
-        next.velocity.local()[i] += correction.local()[a * n_fields + c];
-      }
+  for (std::size_t i = 0; i < rate.local().size(); ++i)
+    {
+      accelerate(stage, next, i, next.acceleration.local()[i] + rate.local()[i]);
+      next.velocity.local()[i] += correction.local()[i];
+    }
   add_inertia(forces, next.acceleration);
 }
 
@@ -143,9 +138,8 @@ double ExplicitSolver<Model>::inertial_work(const Vector &acceleration, const Ve
 {
   double sum = 0.;
   for (int a = 0; a < acceleration.distribution().n_owned(); ++a)
-    for (int c = 0; c < spacedim; ++c)
-      sum += mass_->local()[a * n_fields + c] * acceleration.local()[a * spacedim + c] *
-             displacement.local()[a * spacedim + c];
+    for (int i = a * spacedim; i < (a + 1) * spacedim; ++i)
+      sum += mass_->local()[i] * acceleration.local()[i] * displacement.local()[i];
   MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, acceleration.distribution().comm());
   return sum;
 }
@@ -190,6 +184,8 @@ auto ExplicitSolver<Model>::attempt(const StateType &state, double dt) -> Result
         add_inertia(*start_, state.acceleration);
       }
     end_ = forces_at_rest(next.position, system.phase, state.history, state.time + dt);
+    for (int a = 0; a < state.distribution->n_owned(); ++a)
+      end_->total.local()[a * n_fields + spacedim] = -system.residual.local()[a * n_fields + spacedim];
     balance(*end_, state, next, dt);
   }
   const double size = norm(next.acceleration) + norm(next.velocity) + norm(next.position);

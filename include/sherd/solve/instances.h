@@ -1,5 +1,6 @@
 #pragma once
 
+#include <sherd/assembly/half_kernels.h>
 #include <sherd/fracture/crack_density/fourth_order.h>
 #include <sherd/fracture/degradation/cubic.h>
 #include <sherd/material/shell_laws.h>
@@ -41,8 +42,11 @@ using KoiterShell = BrittleShell<degree, 3, split::None<material::StVenantKirchh
 } // namespace models
 
 extern template class Assembler<models::Plate>;
+SHERD_HALF_KERNELS(extern, models::Plate)
 extern template class StepEquations<models::Plate>;
 extern template class NewtonIteration<models::Plate>;
+extern template class NewtonIteration<models::Plate, Unknowns::displacement>;
+extern template class NewtonIteration<models::Plate, Unknowns::phase>;
 extern template class MonolithicSolver<models::Plate, GeneralizedAlpha>;
 extern template class MonolithicSolver<models::Plate, AnyIntegrator>;
 extern template class StaggeredSolver<models::Plate, AnyIntegrator>;
@@ -56,8 +60,11 @@ extern template class MonolithicSolver<models::UnsplitPlate, GeneralizedAlpha>;
 extern template class MonolithicSolver<models::UnsplitPlate, Newmark>;
 
 extern template class Assembler<models::Shell>;
+SHERD_HALF_KERNELS(extern, models::Shell)
 extern template class StepEquations<models::Shell>;
 extern template class NewtonIteration<models::Shell>;
+extern template class NewtonIteration<models::Shell, Unknowns::displacement>;
+extern template class NewtonIteration<models::Shell, Unknowns::phase>;
 extern template class MonolithicSolver<models::Shell, GeneralizedAlpha>;
 extern template class MonolithicSolver<models::Shell, AnyIntegrator>;
 extern template class StaggeredSolver<models::Shell, AnyIntegrator>;

@@ -17,10 +17,10 @@ namespace sherd
 ///
 /// The arguments of the constructor have to outlive the solver.
 template <class Model, ImplicitIntegrator Integrator>
-class MonolithicSolver : public SolverBase<Model>
+class MonolithicSolver : public SolverBase<Model, Unknowns::all>
 {
 public:
-  using Base      = SolverBase<Model>;
+  using Base      = SolverBase<Model, Unknowns::all>;
   using StateType = typename Base::StateType;
   using Result    = typename Base::Result;
 
@@ -31,12 +31,24 @@ public:
   {
   }
 
+  /// Solves M a = f_ext - f_int at the time of @p state. Collective.
+  /// @throws InvalidParameter   a velocity that the supports do not allow, complete_velocity()
+  void set_initial_acceleration(StateType &state);
+
   /// Attempts the step from @p state to state.time + dt. Collective. Throws only what no smaller step could mend.
   Result attempt(const StateType &state, double dt);
 
 private:
   Integrator integrator_;
 };
+
+template <class Model, ImplicitIntegrator Integrator>
+void MonolithicSolver<Model, Integrator>::set_initial_acceleration(StateType &state)
+{
+  const auto timing = this->timers().measure("initial state");
+  this->newton_.forget_tangent();
+  this->equations_.set_initial_acceleration(state, this->newton_.matrix());
+}
 
 template <class Model, ImplicitIntegrator Integrator>
 auto MonolithicSolver<Model, Integrator>::attempt(const StateType &state, double dt) -> Result

@@ -18,23 +18,42 @@ inline constexpr double surely_converged = .5;
 
 /// Contraction up to which modified Newton goes on with a tangent.
 inline constexpr double good_contraction = .5;
+
+/// The fields @p range of all fields of a vector.
+inline Vector restricted(const Vector &all, FieldRange range)
+{
+  Vector part(all.shared_distribution(), range.count);
+  for (int a = 0; a < all.distribution().n_local(); ++a)
+    for (int c = 0; c < range.count; ++c)
+      part.local()[a * range.count + c] = all.local()[a * all.block_size() + range.first + c];
+  return part;
+}
+
+/// Makes @p all the values of a part, zero in the other fields.
+inline void extend(const Vector &part, FieldRange range, Vector &all)
+{
+  all.fill(0.);
+  for (int a = 0; a < all.distribution().n_local(); ++a)
+    for (int c = 0; c < range.count; ++c)
+      all.local()[a * all.block_size() + range.first + c] = part.local()[a * range.count + c];
+}
 } // namespace internal
 
-template <class Model>
-void NewtonIteration<Model>::rebuild(const Equations &equations)
+template <class Model, Unknowns part>
+void NewtonIteration<Model, part>::rebuild(const Equations &equations)
 {
-  matrix_.emplace(equations.assembler().make_matrix());
+  matrix_.emplace(equations.assembler().make_matrix(part));
   linear_solver_.forget();
   kept_.reset();
   last_residuals_.clear();
 }
 
-template <class Model>
-ResidualNorms NewtonIteration<Model>::linearise(Equations &equations, System &system, PhaseTangent tangent)
+template <class Model, Unknowns part>
+ResidualNorms NewtonIteration<Model, part>::linearise(Equations &equations, System &system, PhaseTangent tangent)
 {
   kept_.reset();
-  const auto norms = equations.linearise(system, tangent, *matrix_);
-  if (settings_.tangent == TangentRule::lagged_history)
+  const auto norms = equations.template linearise<part>(system, tangent, *matrix_);
+  if (part == Unknowns::all && settings_.tangent == TangentRule::lagged_history)
     for (int a = 0; a < matrix_->distribution().n_owned(); ++a)
       if (!equations.assembler().interfaces().is_multiplier(a))
         {
@@ -47,23 +66,34 @@ ResidualNorms NewtonIteration<Model>::linearise(Equations &equations, System &sy
   return norms;
 }
 
-template <class Model>
-void NewtonIteration<Model>::solve_increment(Equations &equations, System &system, Result &result)
+template <class Model, Unknowns part>
+SolveReport NewtonIteration<Model, part>::solve_system(const Vector &rhs, Vector &solution, const System &system)
+{
+  if (kept_)
+    {
+      kept_->fresh = false;
+      return linear_solver_.solve_again(*matrix_, rhs, solution);
+    }
+  decouple_rows(*matrix_, *system.fixed, n_fields, fields);
+  const auto report = linear_solver_.solve(*matrix_, rhs, solution);
+  if (system.has_tangent)
+    kept_ = KeptTangent{system.stage.mass_weight(), std::numeric_limits<double>::infinity(), true};
+  return report;
+}
+
+template <class Model, Unknowns part>
+void NewtonIteration<Model, part>::solve_increment(Equations &equations, System &system, Result &result)
 {
   SolveReport report;
   {
     const auto timing = equations.timers().measure("solve");
-    if (kept_)
-      {
-        report       = linear_solver_.solve_again(*matrix_, system.residual, system.increment);
-        kept_->fresh = false;
-      }
+    if constexpr (part == Unknowns::all)
+      report = solve_system(system.residual, system.increment, system);
     else
       {
-        decouple_rows(*matrix_, *system.fixed);
-        report = linear_solver_.solve(*matrix_, system.residual, system.increment);
-        if (system.has_tangent)
-          kept_ = KeptTangent{system.stage.mass_weight(), std::numeric_limits<double>::infinity(), true};
+        Vector increment(system.increment.shared_distribution(), fields.count);
+        report = solve_system(internal::restricted(system.residual, fields), increment, system);
+        internal::extend(increment, fields, system.increment);
       }
     equations.supported().complete(system.increment);
   }
@@ -73,8 +103,8 @@ void NewtonIteration<Model>::solve_increment(Equations &equations, System &syste
     result.messages.push_back(report.message);
 }
 
-template <class Model>
-void NewtonIteration<Model>::go_along(Equations &equations, System &system)
+template <class Model, Unknowns part>
+void NewtonIteration<Model, part>::go_along(Equations &equations, System &system)
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (settings_.globalisation == Globalisation::none)
@@ -85,14 +115,14 @@ void NewtonIteration<Model>::go_along(Equations &equations, System &system)
   const auto slope0 = dot(system.increment, system.residual);
   const auto slope  = [&](double length) {
     go_to(length);
-    const auto norms = equations.evaluate(system);
+    const auto norms = equations.template evaluate<part>(system);
     return std::isfinite(norms.larger()) ? dot(system.increment, system.residual) : norms.larger();
   };
   go_to(search_line(slope0, slope, settings_.line_search));
 }
 
-template <class Model>
-bool NewtonIteration<Model>::kept_tangent_suffices(double residual) const
+template <class Model, Unknowns part>
+bool NewtonIteration<Model, part>::kept_tangent_suffices(double residual) const
 {
   if (!kept_)
     return false;
@@ -100,8 +130,8 @@ bool NewtonIteration<Model>::kept_tangent_suffices(double residual) const
                                                     : residual * kept_->contraction <= internal::surely_converged;
 }
 
-template <class Model>
-void NewtonIteration<Model>::observe(const std::vector<double> &residuals)
+template <class Model, Unknowns part>
+void NewtonIteration<Model, part>::observe(const std::vector<double> &residuals)
 {
   // Newton's error falls from e to e' = C e^2 / 2; the same tangent takes it from there to C e e' = (2 e' / e) e'.
   const auto n = residuals.size();
@@ -110,8 +140,8 @@ void NewtonIteration<Model>::observe(const std::vector<double> &residuals)
         std::max((kept_->fresh ? 2. : 1.) * residuals[n - 1] / residuals[n - 2], settings_.linear.tolerance);
 }
 
-template <class Model>
-bool NewtonIteration<Model>::expects_use_of_kept_tangent(const std::vector<double> &residuals) const
+template <class Model, Unknowns part>
+bool NewtonIteration<Model, part>::expects_use_of_kept_tangent(const std::vector<double> &residuals) const
 {
   if (settings_.tangent == TangentRule::modified)
     return kept_.has_value();
@@ -130,8 +160,8 @@ bool NewtonIteration<Model>::expects_use_of_kept_tangent(const std::vector<doubl
   return expected <= internal::surely_converged || (kept_ && expected * 2. * factor <= internal::surely_converged);
 }
 
-template <class Model>
-bool NewtonIteration<Model>::iterate(Equations &equations, System &system, Result &result)
+template <class Model, Unknowns part>
+bool NewtonIteration<Model, part>::iterate(Equations &equations, System &system, Result &result)
 {
   double              early           = 0.;
   int                 n_tangents      = 0;
@@ -144,7 +174,7 @@ bool NewtonIteration<Model>::iterate(Equations &equations, System &system, Resul
       // Where this iterate should have converged, or one more solve with the tangent at hand will do, its own tangent
       // is most likely not needed.
       const auto norms = expects_use_of_kept_tangent(residuals)
-                             ? equations.evaluate(system)
+                             ? equations.template evaluate<part>(system)
                              : linearise(equations, system, PhaseTangent::consistent);
       residuals.push_back(norms.larger());
       observe(residuals);
@@ -182,9 +212,16 @@ bool NewtonIteration<Model>::iterate(Equations &equations, System &system, Resul
     }
 }
 
-template <class Model>
-void NewtonIteration<Model>::leave_false_branch(Equations &equations, System &system, const Vector &start,
-                                                Result &result)
+template <class Model, Unknowns part>
+bool NewtonIteration<Model, part>::phase_is_positive_definite(const std::vector<int> &points) const
+    requires(has_phase(part))
+{
+  return positive_definite(*matrix_, spacedim - fields.first, points);
+}
+
+template <class Model, Unknowns part>
+void NewtonIteration<Model, part>::leave_false_branch(Equations &equations, System &system, const Vector &start,
+                                                      Result &result) requires(has_phase(part))
 {
   // Newton with a positive phase stiffness goes downhill; once its residual is small the consistent tangent finishes.
   // The residual is small also where it starts, close to the state that it leaves. From there the consistent tangent
@@ -206,7 +243,7 @@ void NewtonIteration<Model>::leave_false_branch(Equations &equations, System &sy
       if (norms.phase <= close_enough)
         {
           linearise(equations, system, PhaseTangent::consistent);
-          if (on_stable_branch(equations, system, result) && positive_definite(*matrix_, spacedim, everywhere))
+          if (on_stable_branch(equations, system, result) && phase_is_positive_definite(everywhere))
             return;
           linearise(equations, system, PhaseTangent::switched);
         }
@@ -215,8 +252,9 @@ void NewtonIteration<Model>::leave_false_branch(Equations &equations, System &sy
     }
 }
 
-template <class Model>
-bool NewtonIteration<Model>::on_stable_branch(Equations &equations, System &system, Result &result)
+template <class Model, Unknowns part>
+bool NewtonIteration<Model, part>::on_stable_branch(Equations &equations, System &system,
+                                                    Result &result) requires(has_phase(part))
 {
   const auto timing   = equations.timers().measure("branch check");
   const auto suspects = equations.assembler().suspects(system.level(), system.history);
@@ -236,11 +274,12 @@ bool NewtonIteration<Model>::on_stable_branch(Equations &equations, System &syst
       points.push_back(a);
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
-  return positive_definite(*matrix_, spacedim, points);
+  return phase_is_positive_definite(points);
 }
 
-template <class Model>
-bool NewtonIteration<Model>::find_stable_state(Equations &equations, System &system, Result &result)
+template <class Model, Unknowns part>
+bool NewtonIteration<Model, part>::find_stable_state(Equations &equations, System &system,
+                                                     Result &result) requires(has_phase(part))
 {
   const Vector start = system.phase;
   try

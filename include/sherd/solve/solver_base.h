@@ -10,7 +10,9 @@ namespace sherd
 
 /// What all solvers of steps offer besides the step itself: the equations, the state at the beginning, energies and
 /// reactions.
-template <class Model>
+///
+/// @tparam part   the unknowns of the iteration that finds the phase: all together or the phase alone
+template <class Model, Unknowns part>
 class SolverBase
 {
 public:
@@ -47,17 +49,16 @@ public:
     if (!newton_.find_stable_state(equations_, system, result))
       throw NoConvergence("initial phase field: " + result.failure);
     newton_.forget_tangent();
+    if (part != Unknowns::all)
+      equations_.evaluate(system); // the reactions
     state.phase          = system.phase;
     state.previous_phase = system.phase;
   }
 
-  /// Solves M a = f_ext - f_int at the time of @p state. Collective.
-  void set_initial_acceleration(StateType &state)
-  {
-    const auto timing = timers().measure("initial state");
-    newton_.forget_tangent();
-    equations_.set_initial_acceleration(state, newton_.matrix());
-  }
+  /// Gives the velocity of @p state what supports and ties ask for: zero where a support holds the surface at rest,
+  /// that of their masters to tied unknowns. Where a support moves the surface it stays. A velocity that obeys them
+  /// stays as it is; without this, set_initial_acceleration() refuses any other. Collective.
+  void complete_velocity(StateType &state) const { equations_.supported().complete_velocity(state.velocity); }
 
   /// Energies of @p state. Collective.
   Energies energies(const StateType &state) const
@@ -89,8 +90,8 @@ protected:
   }
   ~SolverBase() = default;
 
-  StepEquations<Model>   equations_;
-  NewtonIteration<Model> newton_; ///< of the coupled system, or of the phase
+  StepEquations<Model>         equations_;
+  NewtonIteration<Model, part> newton_;
 };
 
 } // namespace sherd

@@ -8,7 +8,8 @@ namespace sherd
 
 /// Solves each stage of an implicit step by alternate minimisation: the displacement at a given phase, then the phase
 /// at that displacement, until both residuals of MonolithicSolver are below its tolerances at once. So both solve the
-/// same discrete problem. Each half is Newton's method; that of the phase checks and switches its branch (theory C.2).
+/// same discrete problem. Each half is Newton's method on its unknowns alone, with matrices of their blocks only; that
+/// of the phase checks and switches its branch (theory C.2).
 ///
 /// Aitken's relaxation lets the phase go on along its last change: with the change r_k that the k-th alternation would
 /// make, phi_{k+1} = phi_k + w_k r_k, w_k = -w_{k-1} r_{k-1}.(r_k - r_{k-1}) / |r_k - r_{k-1}|^2 in [0.5, 5].
@@ -18,10 +19,10 @@ namespace sherd
 ///
 /// Source: theory F.6.
 template <class Model, ImplicitIntegrator Integrator>
-class StaggeredSolver : public SolverBase<Model>
+class StaggeredSolver : public SolverBase<Model, Unknowns::phase>
 {
 public:
-  using Base      = SolverBase<Model>;
+  using Base      = SolverBase<Model, Unknowns::phase>;
   using StateType = typename Base::StateType;
   using Result    = typename Base::Result;
   using System    = typename Base::System;
@@ -35,15 +36,20 @@ public:
   /// As SolverBase::rebuild. Collective.
   void rebuild(const StateType &state);
 
+  /// Solves M a = f_ext - f_int at the time of @p state. Collective.
+  /// @throws InvalidParameter   a velocity that the supports do not allow, complete_velocity()
+  void set_initial_acceleration(StateType &state);
+
   /// Attempts the step from @p state to state.time + dt. Collective. Throws only what no smaller step could mend.
   Result attempt(const StateType &state, double dt);
 
 private:
   bool alternate(System &system, Result &result);
 
-  Integrator             integrator_;
-  NewtonIteration<Model> displacement_newton_;
-  std::vector<char>      all_but_displacement_, all_but_phase_; ///< fixed unknowns, shape=(n_owned * n_fields)
+  Integrator                                     integrator_;
+  NewtonIteration<Model, Unknowns::displacement> displacement_newton_;
+
+  std::vector<char> all_but_displacement_, all_but_phase_; ///< fixed unknowns, shape=(n_owned * n_fields)
 };
 
 namespace internal
@@ -69,6 +75,14 @@ void StaggeredSolver<Model, Integrator>::rebuild(const StateType &state)
   all_but_displacement_ = all_but_phase_ = this->equations_.supported().fixed();
   for (std::size_t k = 0; k < all_but_phase_.size(); ++k)
     (k % Model::n_fields == Model::spacedim ? all_but_displacement_ : all_but_phase_)[k] = 1;
+}
+
+template <class Model, ImplicitIntegrator Integrator>
+void StaggeredSolver<Model, Integrator>::set_initial_acceleration(StateType &state)
+{
+  const auto timing = this->timers().measure("initial state");
+  displacement_newton_.forget_tangent();
+  this->equations_.template set_initial_acceleration<Unknowns::displacement>(state, displacement_newton_.matrix());
 }
 
 template <class Model, ImplicitIntegrator Integrator>

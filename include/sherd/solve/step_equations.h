@@ -47,10 +47,13 @@ public:
   const NewtonSettings                      &settings() const { return settings_; }
   PhaseTimers                               &timers() { return timers_; }
 
-  /// Residual of the iterate and its tangent.
+  /// Residual of the iterate and its tangent by the unknowns of a part, in a matrix of these. The unknowns of the other
+  /// part have to be fixed, since their forces are not looked at.
+  template <Unknowns part = Unknowns::all>
   ResidualNorms linearise(System &system, PhaseTangent tangent, Matrix &matrix);
 
   /// Residual alone.
+  template <Unknowns part = Unknowns::all>
   ResidualNorms evaluate(System &system);
 
   /// Solves one stage from its predictor; true if the system is solved, else the result says why it is not.
@@ -85,9 +88,13 @@ public:
   StepWork work_of_rotations(const Vector &position, double start, double end) const;
 
   /// Solves M a = f_ext - f_int at the time of @p state with the consistent mass. @p matrix is overwritten.
+  /// @tparam part   of the matrix; has the displacement
+  /// @throws InvalidParameter   a velocity that the supports do not allow, SupportedUnknowns::check_velocity
+  template <Unknowns part = Unknowns::all>
   void set_initial_acceleration(StateType &state, Matrix &matrix) const;
 
-  /// Internal and inertial forces of the last residual, block n_fields; or those that a solver sets.
+  /// Internal and inertial forces of the last residual, block n_fields; or those that a solver sets. Of a part of the
+  /// unknowns, only their rows.
   const std::optional<Vector> &total_force() const { return total_force_; }
   void                         set_total_force(Vector force) { total_force_ = std::move(force); }
 

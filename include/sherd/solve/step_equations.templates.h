@@ -23,22 +23,31 @@ void StepEquations<Model>::rebuild(const StateType &state)
 }
 
 template <class Model>
+template <Unknowns part>
 ResidualNorms StepEquations<Model>::linearise(System &system, PhaseTangent tangent, Matrix &matrix)
 {
   const auto timing = timers_.measure("assembly");
   Vector     force(assembler_->distribution(), n_fields);
-  assembler_->linearise(system.level(), system.history, system.stage.mass_weight(), tangent, system.loads, force,
-                        system.external, matrix);
+  if constexpr (part == Unknowns::all)
+    assembler_->linearise(system.level(), system.history, system.stage.mass_weight(), tangent, system.loads, force,
+                          system.external, matrix);
+  else
+    assembler_->template linearise_part<part>(system.level(), system.history, system.stage.mass_weight(), tangent,
+                                              system.loads, force, system.external, matrix);
   system.has_tangent = tangent == PhaseTangent::consistent;
   return balance(system, std::move(force));
 }
 
 template <class Model>
+template <Unknowns part>
 ResidualNorms StepEquations<Model>::evaluate(System &system)
 {
   const auto timing = timers_.measure("residual");
   Vector     force(assembler_->distribution(), n_fields);
-  assembler_->force(system.level(), system.history, system.loads, force, system.external);
+  if constexpr (part == Unknowns::all)
+    assembler_->force(system.level(), system.history, system.loads, force, system.external);
+  else
+    assembler_->template part_force<part>(system.level(), system.history, system.loads, force, system.external);
   return balance(system, std::move(force));
 }
 
@@ -220,32 +229,40 @@ StepWork StepEquations<Model>::work_of_rotations(const Vector &position, double 
 }
 
 template <class Model>
+template <Unknowns part>
 void StepEquations<Model>::set_initial_acceleration(StateType &state, Matrix &matrix) const
 {
-  const auto &distribution = state.distribution;
-  Vector      force(distribution, n_fields), residual(distribution, n_fields), acceleration(distribution, n_fields);
-  Vector      zero = state.acceleration;
+  supported_->check_velocity(state.velocity);
+  constexpr auto fields       = fields_of(part, spacedim);
+  const auto    &distribution = state.distribution;
+  Vector         force(distribution, n_fields), external            = force;
+  Vector         residual(distribution, fields.count), acceleration = residual;
+  Vector         zero = state.acceleration;
   zero.fill(0.);
   const BalanceLevel level{state.position, zero, state.phase};
-  assembler_->force(level, state.history, assembler_->evaluate(*loads_, state.time), force, residual);
+  assembler_->force(level, state.history, assembler_->evaluate(*loads_, state.time), force, external);
   const auto &interfaces = assembler_->interfaces();
   const auto &fixed      = supported_->fixed();
-  for (std::size_t k = 0; k < residual.owned().size(); ++k)
-    residual.local()[k] = fixed[k] || k % n_fields == spacedim || interfaces.is_multiplier(k / n_fields)
-                              ? 0.
-                              : residual.local()[k] - force.local()[k];
-  assembler_->mass_matrix(matrix);
-  interfaces.constrain_acceleration(state.position, matrix);
-  decouple_rows(matrix, fixed);
+  for (int a = 0; a < distribution->n_owned(); ++a)
+    if (!interfaces.is_multiplier(a))
+      for (int c = 0; c < spacedim; ++c)
+        if (const int k = a * n_fields + c; !fixed[k])
+          residual.local()[a * fields.count + c] = external.local()[k] - force.local()[k];
+  if constexpr (part == Unknowns::all)
+    assembler_->mass_matrix(matrix);
+  else
+    assembler_->template part_mass_matrix<part>(matrix);
+  interfaces.constrain_acceleration(state.position, part, matrix);
+  decouple_rows(matrix, fixed, n_fields, fields);
   auto settings      = settings_.linear;
   settings.tolerance = 1e-12;
   LinearSolver(settings).solve(matrix, residual, acceleration);
   supported_->complete(acceleration);
   for (const int a : interfaces.multipliers())
-    state.position.local()[a * spacedim] += std::exchange(acceleration.local()[a * n_fields], 0.);
+    state.position.local()[a * spacedim] += std::exchange(acceleration.local()[a * fields.count], 0.);
   for (int a = 0; a < distribution->n_local(); ++a)
     for (int c = 0; c < spacedim; ++c)
-      state.acceleration.local()[a * spacedim + c] = acceleration.local()[a * n_fields + c];
+      state.acceleration.local()[a * spacedim + c] = acceleration.local()[a * fields.count + c];
 }
 
 } // namespace sherd

@@ -1,10 +1,15 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <vector>
 
 #include <sherd/algebra/matrix.h>
 #include <sherd/algebra/vector.h>
+#include <sherd/base/collective.h>
+#include <sherd/base/print.h>
+#include <sherd/forms/unknowns.h>
 #include <sherd/space/local_ties.h>
 
 namespace sherd
@@ -64,13 +69,62 @@ public:
     return moves;
   }
 
-  /// Gives tied unknowns the values of their masters; @p increment has n_fields values a control point.
-  void complete(Vector &increment) const { local_ties_.apply(increment.local(), n_fields); }
+  /// Gives tied unknowns the values of their masters; @p increment has n_fields values a control point, or those of the
+  /// displacement.
+  void complete(Vector &increment) const { local_ties_.apply(increment.local(), increment.block_size()); }
 
   /// The same for a phase field.
   void complete_phase(Vector &phase) const { local_ties_.apply(phase.local(), 1, spacedim); }
 
+  /// Gives a velocity, block spacedim, what the supports ask for: zero where they hold the surface at rest, and that of
+  /// their masters to tied unknowns. Where a support moves the surface it stays as it is: integrators take the rates
+  /// from the path of the support. Ghosts are up to date afterwards. Collective.
+  void complete_velocity(Vector &velocity) const
+  {
+    velocity.update_ghosts();
+    for (const auto &c : constraints_)
+      if (supports_->list()[c.support].at_rest)
+        velocity.local()[c.point * spacedim + c.component] = 0.;
+    local_ties_.apply(velocity.local(), spacedim);
+  }
+
+  /// Collective. @throws InvalidParameter   unless complete_velocity() changes nothing but rounding errors; on all
+  /// ranks
+  void check_velocity(const Vector &velocity) const
+  {
+    Vector completed = velocity;
+    complete_velocity(completed);
+    double size = 0.;
+    for (const double v : velocity.owned())
+      size = std::max(size, std::abs(v));
+    MPI_Allreduce(MPI_IN_PLACE, &size, 1, MPI_DOUBLE, MPI_MAX, velocity.distribution().comm());
+    collectively(velocity.distribution().comm(), [&] {
+      for (std::size_t i = 0; i < velocity.owned().size(); ++i)
+        if (std::abs(velocity.local()[i] - completed.local()[i]) > rounding * size)
+          throw InvalidParameter(violation(static_cast<int>(i), velocity.local()[i], completed.local()[i]));
+    });
+  }
+
 private:
+  static constexpr double rounding = 1e-9; ///< relative to the largest velocity
+
+  /// What is wrong with entry @p i of a velocity.
+  std::string violation(int i, double given, double expected) const
+  {
+    const int   component = i % spacedim;
+    const auto  X         = space_->surface().control_points().row(space_->distribution().owned[i / spacedim]).eval();
+    std::string at        = print(X[0]) + ", " + print(X[1]);
+    std::string who       = "a tie of a symmetric edge";
+    if constexpr (spacedim == 3)
+      at += ", " + print(X[2]);
+    for (const auto &c : constraints_)
+      if (c.point == i / spacedim && c.component == component)
+        who = "the support of " + describe(supports_->list()[c.support].region);
+    return std::string("initial velocity: component ") + "xyz"[component] + " is " + print(given) +
+           " at the control point (" + at + "), expected " + print(expected) + " by " + who +
+           "; give a velocity that obeys supports and ties, or let complete_velocity() of the solver change it there";
+  }
+
   const Supports                     *supports_;
   const ShellSpace<degree, spacedim> *space_;
   std::vector<Constraint>             constraints_;
@@ -82,6 +136,9 @@ private:
 /// Empties the rows of @p fixed unknowns but for the diagonal, so that they take the value of the right-hand side over
 /// the diagonal. @param fixed   shape=(n_owned * block_size)
 void decouple_rows(Matrix &matrix, const std::vector<char> &fixed);
+
+/// The same in a matrix of the fields @p range of a control point. @param fixed   shape=(n_owned * n_fields)
+void decouple_rows(Matrix &matrix, const std::vector<char> &fixed, int n_fields, FieldRange range);
 
 /// Sum of @p force, block n_fields, over the control points of a named edge, shape=(spacedim). Sides of one name that
 /// meet in a corner count it once. Collective. @throws InvalidParameter   unknown edge

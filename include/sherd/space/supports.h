@@ -40,7 +40,8 @@ public:
     Region                        region;
     std::optional<Component>      component; ///< all of them if empty
     Rows                          rows;
-    std::function<double(double)> displacement; ///< of time, [length]
+    std::function<double(double)> displacement;    ///< of time, [length]
+    bool                          at_rest = false; ///< whether it is zero at all times
   };
 
   /// An edge across which values are level.

@@ -36,7 +36,7 @@ struct StepControlSettings
   double smallest       = 1e-8; ///< dt_min / dt_max, below which a run ends
 
   StepRule            rule       = StepRule::newton;
-  double              tolerance  = 1e-3;  ///< of the estimated error of a step; rule error
+  double              tolerance  = 1e-6;  ///< of the estimated error of a step over the size of the body; rule error
   std::vector<double> times      = {};    ///< steps end exactly here, and a frame is written [time]
   bool                hit_frames = false; ///< whether steps end exactly at the evenly spaced frames
 
@@ -53,7 +53,8 @@ struct StepControlSettings
     section.value("smallest", smallest, "-", range::open(0., 1.), "smallest step over the largest; the run ends below");
     section.choice("rule", rule, {{"newton", StepRule::newton}, {"fixed", StepRule::fixed}, {"error", StepRule::error}},
                    "what sets the step: Newton iterations (paper Eq. (13)), nothing, or the estimated error");
-    section.value("tolerance", tolerance, "-", range::positive(), "error of a step that is allowed, for rule error");
+    section.value("tolerance", tolerance, "-", range::positive(),
+                  "error of a step over the size of the body that is allowed, for rule error");
     section.value("times", times, "time", range::positive(),
                   "steps end exactly at these times, and frames are written");
     section.value("hit_frames", hit_frames, "whether steps end exactly at the evenly spaced frames");
