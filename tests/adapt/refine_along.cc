@@ -8,8 +8,8 @@ using namespace sherd;
 
 TEST_CASE("The mesh is fine along a line and stays coarse away from it")
 {
-  constexpr double   target = 1. / 32., width = .1;
-  auto               plate = shapes::plate<2, 2>({2., 1.}, {8, 4});
+  constexpr double target = 1. / 32., width = .1;
+  auto             plate = shapes::plate<2, 2>({2., 1.}, {8, 4});
   // Between control points of the coarse mesh, bent, and it ends inside.
   const Polyline<2> line({{.3, .3}, {1.1, .62}, {1.3, .2}});
   refine_along(plate, line, width, target);
