@@ -41,6 +41,7 @@ Frames run(const StepControlSettings &steps)
 
   const OutputDirectory directory(env);
   directory.prepare();
+  std::ofstream(directory.file("used.yaml")) << "{}\n"; // a checkpoint would repeat it
   const std::optional<Checkpoint<2, 2>> none;
   RecordedRun recorded(env, directory, body.plate, none, recording, {}, body.solver, body.space, body.state,
                        body.controller);
