@@ -261,7 +261,10 @@ void Assembler<Model>::part_force(const BalanceLevel &level, const QuadratureFie
       {
         const auto           f = fields(e, level.position, level.acceleration, level.phase);
         ElementVector<Model> vector;
-        element_force<part>(*model_, elements_[e], f, history[e], vector);
+        if constexpr (part == Unknowns::phase)
+          element_phase_force(*model_, elements_[e], f, history[e], active_energy(e, f, level).data(), vector);
+        else
+          element_force<part>(*model_, elements_[e], f, history[e], vector);
         scatter_force<part>(e, vector, ranges_[r], force);
       }
   interfaces_.add_force(level.position, level.phase, part, force);
@@ -303,7 +306,11 @@ void Assembler<Model>::linearise_part(const BalanceLevel &level, const Quadratur
         const auto                 f = fields(e, level.position, level.acceleration, level.phase);
         ElementVector<Model>       vector;
         ElementMatrix<Model, part> tangent;
-        element_tangent(*model_, elements_[e], f, history[e], mass_weight, phase_tangent, vector, tangent);
+        if constexpr (part == Unknowns::phase)
+          element_phase_tangent(*model_, elements_[e], f, history[e], active_energy(e, f, level).data(), phase_tangent,
+                                vector, tangent);
+        else
+          element_tangent(*model_, elements_[e], f, history[e], mass_weight, phase_tangent, vector, tangent);
         if constexpr (spacedim == 3 && has_displacement(part))
           if (!loads.pressure.empty())
             {
@@ -398,7 +405,8 @@ double Assembler<Model>::withheld_work(const BalanceLevel &level, const Vector &
       {
         const auto now    = fields(static_cast<int>(e), level.position, level.acceleration, level.phase);
         const auto before = fields(static_cast<int>(e), level.position, level.acceleration, previous);
-        part[e]           = element_withheld_work(*model_, elements_[e], now, before.phase, history[e]);
+        part[e]           = element_withheld_work(*model_, elements_[e], now.phase, before.phase, history[e],
+                                                  active_energy(static_cast<int>(e), now, level).data());
       }
   double sum = std::accumulate(part.begin(), part.end(), 0.);
   MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, distribution_->comm());
@@ -422,6 +430,31 @@ double Assembler<Model>::inertial_work(const Vector &acceleration, const Vector 
 }
 
 template <class Model>
+QuadratureField Assembler<Model>::active_energy(const BalanceLevel &level) const
+{
+  QuadratureField result(static_cast<int>(elements_.size()), n_q);
+#pragma omp parallel for schedule(static)
+  for (std::size_t e = 0; e < elements_.size(); ++e)
+    {
+      const auto f      = fields(static_cast<int>(e), level.position, level.acceleration, level.phase);
+      const auto energy = active_energy(static_cast<int>(e), f, level);
+      std::copy(energy.begin(), energy.end(), result[e]);
+    }
+  return result;
+}
+
+template <class Model>
+auto Assembler<Model>::active_energy(int active, const ElementFields<Model> &fields, const BalanceLevel &level) const
+    -> std::array<double, n_q>
+{
+  if (!level.active_energy)
+    return element_active_energy(*model_, elements_[active], fields);
+  std::array<double, n_q> energy;
+  std::copy_n((*level.active_energy)[active], n_q, energy.begin());
+  return energy;
+}
+
+template <class Model>
 QuadratureField Assembler<Model>::committed(const BalanceLevel &level, const QuadratureField &history) const
 {
   QuadratureField result = history;
@@ -429,7 +462,7 @@ QuadratureField Assembler<Model>::committed(const BalanceLevel &level, const Qua
   for (std::size_t e = 0; e < elements_.size(); ++e)
     {
       const auto f      = fields(static_cast<int>(e), level.position, level.acceleration, level.phase);
-      const auto energy = element_active_energy(*model_, elements_[e], f);
+      const auto energy = active_energy(static_cast<int>(e), f, level);
       const auto phase  = element_phase<Model>(elements_[e], f);
       for (int q = 0; q < n_q; ++q)
         result[e][q] = model_->irreversibility.commit(history[e][q], energy[q], phase[q]);
@@ -461,7 +494,7 @@ SuspectElements Assembler<Model>::suspects(const BalanceLevel &level, const Quad
       result.largest_phase = std::max(result.largest_phase, bound);
       if (bound <= branch::suspect_phase)
         continue;
-      const auto energy = element_active_energy(*model_, elements_[e], f);
+      const auto energy = active_energy(static_cast<int>(e), f, level);
       for (int q = 0; q < n_q; ++q)
         if (branch::is_suspect(model_->degradation, model_->crack_density,
                                model_->irreversibility.trial(history[e][q], energy[q]), phase[q],
@@ -477,14 +510,15 @@ SuspectElements Assembler<Model>::suspects(const BalanceLevel &level, const Quad
 template <class Model>
 int Assembler<Model>::n_turned(const Vector &before, const Vector &after) const
 {
-  const Vector no_phase(distribution_, 1);
+  const Vector at_rest(distribution_, spacedim), no_phase(distribution_, 1);
   int          n = 0;
   for (std::size_t e = 0; e < elements_.size(); ++e)
     if (space_->distribution().owns[e])
       {
-        // Two positions side by side: the earlier one takes the place of the acceleration.
-        const auto f = fields(static_cast<int>(e), after, before, no_phase);
-        n += !keeps_orientation<Model>(elements_[e], f.acceleration, f.position);
+        const auto at = [&](const Vector &position) {
+          return fields(static_cast<int>(e), position, at_rest, no_phase);
+        };
+        n += !keeps_orientation<Model>(elements_[e], at(before).position, at(after).position);
       }
   return n;
 }

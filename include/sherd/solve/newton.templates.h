@@ -167,8 +167,14 @@ bool NewtonIteration<Model, part>::iterate(Equations &equations, System &system,
   int                 n_tangents      = 0;
   bool                by_kept_tangent = false; // the increment that led to this iterate
   std::vector<double> residuals;
-  if (kept_ && kept_->mass_weight != system.stage.mass_weight())
-    kept_.reset();
+  if constexpr (has_displacement(part))
+    {
+      system.active_energy.reset();
+      if (kept_ && kept_->mass_weight != system.stage.mass_weight())
+        kept_.reset();
+    }
+  else if (!system.active_energy)
+    system.active_energy = equations.active_energy(system);
   for (int i = 0;; ++i)
     {
       // Where this iterate should have converged, or one more solve with the tangent at hand will do, its own tangent

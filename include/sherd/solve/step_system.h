@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -42,6 +43,9 @@ struct StepSystem
   Vector increment;           ///< block n_fields
   bool   has_tangent = false; ///< whether the matrix is the tangent of this iterate
 
+  /// Psi+ of the position, where a solver keeps it while the position does not move.
+  std::optional<QuadratureField> active_energy;
+
   /// @p interfaces, @p history and @p fixed have to outlive the system.
   StepSystem(const InterfaceTerms<Model> &interfaces_, const Stage &stage_, Motion start_, Motion next_, Vector phase_,
              const QuadratureField &history_, const std::vector<char> &fixed_, LoadValues<Model> loads_,
@@ -64,7 +68,7 @@ struct StepSystem
     update_levels();
   }
 
-  BalanceLevel level() const { return {position, acceleration, phase}; }
+  BalanceLevel level() const { return {position, acceleration, phase, active_energy ? &*active_energy : nullptr}; }
 
   /// Adds @p length times the increment; its phase part is scaled down to @p largest_phase_step.
   void advance(double length, double largest_phase_step)
