@@ -217,4 +217,5 @@ private:
 } // namespace sherd
 
 #include <sherd/assembly/assembler.templates.h>
+#include <sherd/assembly/assembler_state.templates.h>
 #include <sherd/assembly/assembler_loads.templates.h>
