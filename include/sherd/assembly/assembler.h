@@ -31,7 +31,7 @@ struct BalanceLevel
   const QuadratureField *active_energy = nullptr;
 };
 
-/// A quadrature point that may lie on the false branch was found on this active element (theory C.2).
+/// Elements with a quadrature point that may lie on the false branch (theory C.2).
 struct SuspectElements
 {
   std::vector<int> active;             ///< active elements of this rank
