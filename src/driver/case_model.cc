@@ -60,12 +60,14 @@ split::Any<3> make_shell_split(const MaterialParameters &p)
     return split::None<NeoHooke, Bending>(NeoHooke(sheet.moduli), bending);
   if (p.split == "none")
     return split::None<StVenantKirchhoff, Bending>(StVenantKirchhoff(sheet.moduli), bending);
-  if (p.split == "surface_stretch")
-    return split::SurfaceStretch<NeoHooke, Bending>(NeoHooke(sheet.moduli), bending, layers_of(p));
+  const auto share = [&](const auto &kind) -> split::Any<3> {
+    if (p.split == "surface_stretch")
+      return split::SurfaceStretch<NeoHooke, Bending>(NeoHooke(sheet.moduli), bending, kind);
+    return split::SpectralMembrane<Bending>(sheet.moduli, bending, kind);
+  };
   if (p.bending_part == BendingTreatment::layers)
-    return split::SpectralMembrane<Bending>(sheet.moduli, bending, layers_of(p));
-  return split::SpectralMembrane<Bending>(
-      sheet.moduli, bending, p.bending_part == BendingTreatment::active ? BendingPart::active : BendingPart::passive);
+    return share(layers_of(p));
+  return share(p.bending_part == BendingTreatment::active ? BendingPart::active : BendingPart::passive);
 }
 
 /// Share of @p X that belongs to the region: 1 inside, 0 outside, a cosine between.

@@ -12,11 +12,12 @@ void MaterialParameters::declare(ParameterSection &section)
                  "what of the elastic energy is degraded and drives cracks");
   section.choice("membrane", membrane, {"default", "neo_hooke", "st_venant_kirchhoff"}, "membrane law");
   section.choice("bending", bending, {"default", "canham", "koiter", "none"}, "bending law of a shell; none: plane");
-  section.choice("bending_part", bending_part,
-                 {{"layers", BendingTreatment::layers},
-                  {"active", BendingTreatment::active},
-                  {"passive", BendingTreatment::passive}},
-                 "what of bending is active under spectral_membrane: the stretched layers, all, nothing");
+  section.choice(
+      "bending_part", bending_part,
+      {{"layers", BendingTreatment::layers},
+       {"active", BendingTreatment::active},
+       {"passive", BendingTreatment::passive}},
+      "what of bending is active under surface_stretch and spectral_membrane: the stretched layers, all, nothing");
   section.choice("layer_metric", layers.metric, {{"full", LayerMetric::full}, {"linear", LayerMetric::linear}},
                  "metric of a layer, for splits that look for stretched layers");
   section.choice("cut", layers.cut, {{"frozen", Cut::frozen}, {"kept", Cut::kept}},
@@ -83,12 +84,13 @@ void MaterialParameters::resolve(int dimension)
   else
     choose("bending", bending, "koiter", {"koiter"});
 
-  if (bending_part != BendingTreatment::layers && !(shell && split == "spectral_membrane"))
+  const bool shares_bending = shell && (split == "surface_stretch" || split == "spectral_membrane");
+  if (bending_part != BendingTreatment::layers && !shares_bending)
     throw InvalidParameter("material.bending_part is given, but material.split = " + split +
                            (shell ? "" : " in the plane") +
-                           "; only spectral_membrane in space has a choice of what of bending is active");
-  const bool          looks_at_layers = shell && (split == "surface_stretch" ||
-                                         (split == "spectral_membrane" && bending_part == BendingTreatment::layers));
+                           "; only surface_stretch and spectral_membrane in space have a choice of what of bending is "
+                           "active");
+  const bool          looks_at_layers = shares_bending && bending_part == BendingTreatment::layers;
   const LayerSettings defaults;
   if (!looks_at_layers &&
       (layers.metric != defaults.metric || layers.cut != defaults.cut || layers.tangent != defaults.tangent))

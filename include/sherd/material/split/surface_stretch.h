@@ -14,7 +14,9 @@ namespace sherd::split
 /// Membrane: distortion is always active, change of area only where the surface is stretched, J >= 1. Energy and stress
 /// are continuous at J = 1, where Psi_dil and its stress vanish; the tangent jumps.
 ///
-/// Bending: Psi_b is shared among the layers of the thickness and active in the stretched ones, see BendingShare.
+/// Bending: Psi_b is shared among the layers of the thickness and active in the stretched ones, see BendingShare. A
+/// shell much thinner than its wrinkles better has all of bending active: with a frozen cut a broken element that flaps
+/// between tension and compression makes energy (doc/theory B.4).
 template <SeparableMembraneLaw Membrane, BendingLaw Bending = material::NoBending>
 class SurfaceStretch
 {
@@ -32,6 +34,12 @@ public:
   /// @throws InvalidParameter  for layers that are not valid.
   SurfaceStretch(const Membrane &membrane, const Bending &bending, const LayerSettings &layers)
       : membrane_(membrane), bending_(bending, layers)
+  {
+  }
+
+  /// A shell whose bending is active as a whole, or not at all.
+  SurfaceStretch(const Membrane &membrane, const Bending &bending, const BendingPart part)
+      : membrane_(membrane), bending_(bending, part)
   {
   }
 
