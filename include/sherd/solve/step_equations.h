@@ -56,9 +56,6 @@ public:
   template <Unknowns part = Unknowns::all>
   ResidualNorms evaluate(System &system);
 
-  /// Psi+ at the position of the iterate.
-  QuadratureField active_energy(const System &system);
-
   /// Solves one stage from its predictor; true if the system is solved, else the result says why it is not.
   using StageSolver = std::function<bool(System &, Result &)>;
 

@@ -52,13 +52,6 @@ ResidualNorms StepEquations<Model>::evaluate(System &system)
 }
 
 template <class Model>
-QuadratureField StepEquations<Model>::active_energy(const System &system)
-{
-  const auto timing = timers_.measure("residual");
-  return assembler_->active_energy(system.level());
-}
-
-template <class Model>
 ResidualNorms StepEquations<Model>::balance(System &system, Vector force)
 {
   // Squared norms over the owned unknowns: residual, load, reaction of the supports, inertia (lumped).
@@ -160,7 +153,7 @@ auto StepEquations<Model>::take_stages(const StateType &state, double dt, const 
                           difference(system.next.position, end.position), difference(system.phase, end.phase));
       result.work += work_of_rotations(system.position, state.time + elapsed, state.time + stage.dt);
       if (!system.active_energy)
-        system.active_energy = active_energy(system);
+        system.active_energy = assembler_->active_energy(system.level());
       QuadratureField history = assembler_->committed(system.level(), end.history);
       result.withheld_work += assembler_->withheld_work(system.level(), end.phase, history);
       if (stage.has_inertia())
