@@ -8,6 +8,7 @@
 #include <sherd/driver/case_plate.h>
 #include <sherd/geometry/shapes.h>
 #include <sherd/material/split/none.h>
+#include <sherd/time/generalized_alpha.h>
 
 using namespace sherd;
 

@@ -173,10 +173,13 @@ template <class Model>
 PointState<Model> evaluate_point(const Model &model, const ElementData<Model> &data,
                                  const PointFields<Model::spacedim> &fields, double accepted_history, int q)
 {
-  const auto frame    = surface_frame(fields);
-  const auto response = data.stiffness[q] * model.split.respond(surface_point(data.reference[q], frame));
-  return {evaluate_phase(model, data, fields, accepted_history, response.energy_active, q), frame,
-          internal::point_of<Model::spacedim>(fields.rate), response};
+  const auto        frame = surface_frame(fields);
+  PointState<Model> p{{},
+                      frame,
+                      internal::point_of<Model::spacedim>(fields.rate),
+                      data.stiffness[q] * model.split.respond(surface_point(data.reference[q], frame))};
+  static_cast<PhasePoint &>(p) = evaluate_phase(model, data, fields, accepted_history, p.response.energy_active, q);
+  return p;
 }
 
 } // namespace sherd
