@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include <sherd/base/instantiate.h>
 #include <sherd/base/print.h>
 #include <sherd/geometry/interpolate.h>
 #include <sherd/geometry/tensor_product.h>
@@ -272,12 +273,7 @@ std::string join_numbers(const std::vector<double> &values)
   template Surface<degree, spacedim> to_surface(const FileText &, std::size_t, std::vector<Patch<degree, spacedim>>,   \
                                                 std::map<std::string, std::vector<Edge>>,                              \
                                                 std::optional<std::vector<Interface>>);
-SHERD_INSTANTIATE(2, 2)
-SHERD_INSTANTIATE(3, 2)
-SHERD_INSTANTIATE(4, 2)
-SHERD_INSTANTIATE(2, 3)
-SHERD_INSTANTIATE(3, 3)
-SHERD_INSTANTIATE(4, 3)
+SHERD_FOR_EACH_SURFACE(SHERD_INSTANTIATE)
 #undef SHERD_INSTANTIATE
 
 } // namespace sherd::internal

@@ -5,6 +5,7 @@
 
 #include <pugixml.hpp>
 
+#include <sherd/base/instantiate.h>
 #include <sherd/base/print.h>
 #include <sherd/base/text_file.h>
 
@@ -488,12 +489,7 @@ void write_gismo_xml(const Environment &env, const std::filesystem::path &file,
   template std::string               to_gismo_xml(const Surface<degree, spacedim> &);                                  \
   template Surface<degree, spacedim> read_gismo_xml(const Environment &, const std::filesystem::path &, LowerDegree);  \
   template void write_gismo_xml(const Environment &, const std::filesystem::path &, const Surface<degree, spacedim> &);
-SHERD_INSTANTIATE(2, 2)
-SHERD_INSTANTIATE(3, 2)
-SHERD_INSTANTIATE(4, 2)
-SHERD_INSTANTIATE(2, 3)
-SHERD_INSTANTIATE(3, 3)
-SHERD_INSTANTIATE(4, 3)
+SHERD_FOR_EACH_SURFACE(SHERD_INSTANTIATE)
 #undef SHERD_INSTANTIATE
 
 } // namespace sherd

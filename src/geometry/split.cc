@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 
+#include <sherd/base/instantiate.h>
 #include <sherd/base/print.h>
 #include <sherd/geometry/tensor_product.h>
 
@@ -321,12 +322,7 @@ Surface<degree, spacedim> split_at_c0_lines(const Surface<degree, spacedim> &sur
   template Surface<degree, spacedim> split_patches(const Surface<degree, spacedim> &, int, Direction, double);         \
   template Surface<degree, spacedim> split_patches(const Surface<degree, spacedim> &, const std::array<int, 2> &);     \
   template Surface<degree, spacedim> split_at_c0_lines(const Surface<degree, spacedim> &);
-SHERD_INSTANTIATE(2, 2)
-SHERD_INSTANTIATE(3, 2)
-SHERD_INSTANTIATE(4, 2)
-SHERD_INSTANTIATE(2, 3)
-SHERD_INSTANTIATE(3, 3)
-SHERD_INSTANTIATE(4, 3)
+SHERD_FOR_EACH_SURFACE(SHERD_INSTANTIATE)
 #undef SHERD_INSTANTIATE
 
 } // namespace sherd

@@ -1,3 +1,4 @@
+#include <sherd/base/instantiate.h>
 #include <sherd/geometry/element_geometry.h>
 #include <sherd/geometry/place.h>
 #include <sherd/geometry/surface.h>
@@ -12,12 +13,7 @@ namespace sherd
   template std::vector<Interface>            find_interfaces(const std::vector<Patch<degree, spacedim>> &);            \
   template ElementGeometry<degree, spacedim> element_geometry(const Surface<degree, spacedim> &, int);                 \
   template SurfacePlace                      closest_place(const Surface<degree, spacedim> &, const Point<spacedim> &);
-SHERD_INSTANTIATE(2, 2)
-SHERD_INSTANTIATE(3, 2)
-SHERD_INSTANTIATE(4, 2)
-SHERD_INSTANTIATE(2, 3)
-SHERD_INSTANTIATE(3, 3)
-SHERD_INSTANTIATE(4, 3)
+SHERD_FOR_EACH_SURFACE(SHERD_INSTANTIATE)
 #undef SHERD_INSTANTIATE
 
 } // namespace sherd

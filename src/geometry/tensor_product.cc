@@ -1,5 +1,7 @@
 #include <sherd/geometry/tensor_product.h>
 
+#include <sherd/base/instantiate.h>
+
 #include <algorithm>
 #include <map>
 
@@ -74,12 +76,7 @@ std::optional<Patch<degree, spacedim>> tensor_product(const Patch<degree, spaced
 
 #define SHERD_INSTANTIATE(degree, spacedim)                                                                            \
   template std::optional<Patch<degree, spacedim>> tensor_product(const Patch<degree, spacedim> &);
-SHERD_INSTANTIATE(2, 2)
-SHERD_INSTANTIATE(3, 2)
-SHERD_INSTANTIATE(4, 2)
-SHERD_INSTANTIATE(2, 3)
-SHERD_INSTANTIATE(3, 3)
-SHERD_INSTANTIATE(4, 3)
+SHERD_FOR_EACH_SURFACE(SHERD_INSTANTIATE)
 #undef SHERD_INSTANTIATE
 
 } // namespace sherd

@@ -71,6 +71,39 @@ void check_half(const Assembler<Model> &assembler, const State<Model::degree, Mo
   check(half_force, half_external);
 }
 
+/// The residual of the phase, its memory and the work withheld are those of the active energy that the level has.
+template <class Model>
+void check_known_energy(const Assembler<Model> &assembler, const State<Model::degree, Model::spacedim> &state)
+{
+  const BalanceLevel level{state.position, state.acceleration, state.phase};
+  const auto         energy = assembler.active_energy(level);
+  const auto         values = [&](const QuadratureField &active) {
+    const BalanceLevel known{state.position, state.acceleration, state.phase, &active};
+    Vector             force(state.distribution, Model::n_fields), other = force;
+    assembler.template part_force<Unknowns::phase>(known, state.history, {}, force, other);
+    auto result = gather(force);
+    result.push_back(assembler.withheld_work(known, state.previous_phase, state.history));
+    const auto committed = assembler.committed(known, state.history);
+    for (int e = 0; e < assembler.space().n_active_elements(); ++e)
+      result.insert(result.end(), committed[e], committed[e] + state.n_q);
+    return result;
+  };
+  Vector force(state.distribution, Model::n_fields), other = force;
+  assembler.template part_force<Unknowns::phase>(level, state.history, {}, force, other);
+  auto       expected  = gather(force);
+  const auto committed = assembler.committed(level, state.history);
+  expected.push_back(assembler.withheld_work(level, state.previous_phase, state.history));
+  for (int e = 0; e < assembler.space().n_active_elements(); ++e)
+    expected.insert(expected.end(), committed[e], committed[e] + state.n_q);
+  CHECK(values(energy) == expected);
+
+  auto larger = energy;
+  for (int e = 0; e < assembler.space().n_active_elements(); ++e)
+    for (int q = 0; q < state.n_q; ++q)
+      larger[e][q] = 2. * energy[e][q] + 1.;
+  CHECK(values(larger) != expected);
+}
+
 template <class Model>
 void check_halves(const Assembler<Model> &assembler, const State<Model::degree, Model::spacedim> &state,
                   const Loads<Model::spacedim> &loads)
@@ -78,6 +111,7 @@ void check_halves(const Assembler<Model> &assembler, const State<Model::degree, 
   check_half<Unknowns::displacement>(assembler, state, loads, PhaseTangent::consistent);
   check_half<Unknowns::phase>(assembler, state, loads, PhaseTangent::consistent);
   check_half<Unknowns::phase>(assembler, state, loads, PhaseTangent::switched);
+  check_known_energy(assembler, state);
 
   Matrix whole = assembler.make_matrix(), half = assembler.make_matrix(Unknowns::displacement);
   assembler.mass_matrix(whole);

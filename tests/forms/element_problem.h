@@ -225,7 +225,8 @@ public:
   /// Work withheld in a step from the phase of @p before to that of @p y.
   double withheld_work(const Eigen::VectorXd &y, const Eigen::VectorXd &before, const History &history) const
   {
-    return element_withheld_work(model, data, fields(y), fields(before).phase, history.data());
+    return element_withheld_work(model, data, fields(y).phase, fields(before).phase, history.data(),
+                                 active_energy(y).data());
   }
 
   /// Elastic and fracture energy.

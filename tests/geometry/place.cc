@@ -111,6 +111,20 @@ TEST_CASE("The closest place of a closed surface lies on the patch below the poi
     }
 }
 
+TEST_CASE("The closest place is found where a side is drawn together to a point")
+{
+  // A sector of a disc, its tip at u = 0.
+  const auto knots = shapes::uniform_knots<2>(3);
+  const auto sector =
+      interpolate<2, 2>(knots, knots, [](double u, double v) { return Point<2>(u, u * (v / 3. - .5)); });
+  for (const Point<2> &X : {Point<2>(0., 0.), Point<2>(-.3, .1), Point<2>(1.7, .2), Point<2>(1e-3, 0.)})
+    {
+      const auto   foot = position(sector, closest_place(sector, X));
+      const double best = X[0] < 0. ? X.norm() : 0.;
+      CHECK((foot - X).norm() == Approx(best).margin(1e-7));
+    }
+}
+
 TEST_CASE("Shape functions at a place sum to one and give position and fields")
 {
   const auto      surface = refined_cylinder();

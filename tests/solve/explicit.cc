@@ -158,6 +158,7 @@ TEST_CASE("A step above the explicit limit is refused, with the reason")
   CHECK_FALSE(result.state);
   CHECK_THAT(result.failure, Catch::Contains("exceeds the largest stable one"));
   CHECK(body.solver.attempt(body.state, limit).state);
+  CHECK(body.solver.attempt(body.state, limit * (1. + 1e-10)).state); // what is left up to a given time
   CHECK_FALSE(body.solver.attempt(body.state, std::numeric_limits<double>::quiet_NaN()).state);
 }
 

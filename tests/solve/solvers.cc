@@ -135,6 +135,31 @@ TEST_CASE("Solvers agree under an integrator of two stages, too")
   CHECK(largest_difference(monolithic.phase, staggered.phase) < 1e-5);
 }
 
+TEST_CASE("A tangent of the phase, which has no mass, serves steps of every size")
+{
+  const auto                              modified = settings(TangentRule::modified);
+  Monolithic                              body(modified, GeneralizedAlpha(.5)); // at rest, its phase in equilibrium
+  StepEquations<Glass>                    equations(body.model, body.space, body.supports, body.loads, modified);
+  NewtonIteration<Glass, Unknowns::phase> newton(modified);
+  equations.rebuild(body.state);
+  newton.rebuild(equations);
+  Vector disturbed = body.state.phase;
+  scale(.999, disturbed);
+  const auto n_tangents = [&](double dt) {
+    const auto count  = [&] { return equations.timers().statistics(MPI_COMM_WORLD)["assembly"].calls; };
+    const auto before = count();
+    auto       system = equations.phase_system(body.state.position, disturbed, body.state.history);
+    system.stage.dt   = dt;
+    StepResult<2, 2> result;
+    REQUIRE(newton.find_stable_state(equations, system, result));
+    CHECK(largest_difference(gather(system.phase), gather(body.state.phase)) < 1e-6);
+    return count() - before;
+  };
+  CHECK(n_tangents(.1) > 0);
+  CHECK(n_tangents(.1) == 0);
+  CHECK(n_tangents(.05) == 0);
+}
+
 TEST_CASE("A failed step leaves nothing behind, also after its first stage")
 {
   const auto outcome = [](bool with_failures) {

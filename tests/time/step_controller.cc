@@ -295,6 +295,28 @@ TEST_CASE("Steps by error keep the error of a step at its tolerance")
   CHECK(rejected <= 2);
 }
 
+TEST_CASE("A step that is too inaccurate is repeated with the one that should meet four fifths of the tolerance")
+{
+  StepController c(StepControlSettings{.initial = 1., .rule = StepRule::error, .tolerance = 1e-4});
+  c.reject_inaccurate(2e-4, 1.);
+  CHECK(c.step() == Approx(std::cbrt(.4)));
+  c.reject_inaccurate(1e4, c.step());
+  CHECK(c.step() == Approx(.2 * std::cbrt(.4)));
+}
+
+TEST_CASE("The error of a step that was shortened is no trend")
+{
+  StepController c(StepControlSettings{.initial = 1., .rule = StepRule::error, .tolerance = 1e-4});
+  const double   settled = 8e-5;
+  const auto     error   = [=](double dt) { return settled * dt * dt * dt; };
+  c.accept(1, error(1.), 1.);
+  CHECK(c.step() == Approx(1.));
+  c.accept(1, error(.1), .1); // to end at a given time
+  CHECK(c.step() == Approx(1.));
+  c.accept(1, error(1.), 1.);
+  CHECK(c.step() == Approx(1.));
+}
+
 TEST_CASE("An error that no step can mend ends the run")
 {
   StepController c(StepControlSettings{.initial = 1., .rule = StepRule::error});

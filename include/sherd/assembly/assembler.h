@@ -25,9 +25,13 @@ struct BalanceLevel
   const Vector &position;     ///< x at n + alpha_f, block spacedim
   const Vector &acceleration; ///< a at n + alpha_m, block spacedim
   const Vector &phase;        ///< phi at n + 1, block 1
+
+  /// Psi+ of the position, Assembler::active_energy, where it is known: then what needs it alone does not ask the
+  /// material for it.
+  const QuadratureField *active_energy = nullptr;
 };
 
-/// A quadrature point that may lie on the false branch was found on this active element (theory C.2).
+/// Elements with a quadrature point that may lie on the false branch (theory C.2).
 struct SuspectElements
 {
   std::vector<int> active;             ///< active elements of this rank
@@ -117,7 +121,8 @@ public:
                  Matrix &matrix) const;
 
   /// Forces with loads of the unknowns of a part alone: other rows of @p force get 0. The phase has no external force;
-  /// for it @p external is left as it is.
+  /// for it @p external is left as it is. Give the level its active energy where the phase changes more often than the
+  /// position.
   template <Unknowns part>
   void part_force(const BalanceLevel &level, const QuadratureField &history, const LoadValues<Model> &loads,
                   Vector &force, Vector &external) const;
@@ -128,6 +133,9 @@ public:
   void linearise_part(const BalanceLevel &level, const QuadratureField &history, double mass_weight,
                       PhaseTangent phase_tangent, const LoadValues<Model> &loads, Vector &force, Vector &external,
                       Matrix &matrix) const;
+
+  /// Psi+ at the quadrature points of the active elements [energy/area].
+  QuadratureField active_energy(const BalanceLevel &level) const;
 
   /// M in the displacement block, 1 on the diagonal of the phase and of multipliers.
   void mass_matrix(Matrix &matrix) const;
@@ -176,6 +184,9 @@ private:
   using Extractions = std::array<ExtractionMatrix<degree>, n_fields>;
 
   ElementFields<Model> fields(int active, const Vector &position, const Vector &rate, const Vector &phase) const;
+  /// Psi+ at the quadrature points of an element: that of the level, or by the fields there.
+  std::array<double, n_q>         active_energy(int active, const ElementFields<Model> &fields,
+                                                const BalanceLevel &level) const;
   const ExtractionMatrix<degree> &extraction(int active, int field) const;
   ControlValues<spacedim>         control_values(int active, const Vector &position) const;
   RowRange                        all_rows() const { return {0, distribution_->n_owned(), {}}; }
@@ -206,4 +217,5 @@ private:
 } // namespace sherd
 
 #include <sherd/assembly/assembler.templates.h>
+#include <sherd/assembly/assembler_state.templates.h>
 #include <sherd/assembly/assembler_loads.templates.h>

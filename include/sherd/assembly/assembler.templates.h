@@ -1,7 +1,7 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
-#include <numeric>
 
 #include <omp.h>
 
@@ -261,7 +261,10 @@ void Assembler<Model>::part_force(const BalanceLevel &level, const QuadratureFie
       {
         const auto           f = fields(e, level.position, level.acceleration, level.phase);
         ElementVector<Model> vector;
-        element_force<part>(*model_, elements_[e], f, history[e], vector);
+        if constexpr (part == Unknowns::phase)
+          element_phase_force(*model_, elements_[e], f, history[e], active_energy(e, f, level).data(), vector);
+        else
+          element_force<part>(*model_, elements_[e], f, history[e], vector);
         scatter_force<part>(e, vector, ranges_[r], force);
       }
   interfaces_.add_force(level.position, level.phase, part, force);
@@ -303,7 +306,11 @@ void Assembler<Model>::linearise_part(const BalanceLevel &level, const Quadratur
         const auto                 f = fields(e, level.position, level.acceleration, level.phase);
         ElementVector<Model>       vector;
         ElementMatrix<Model, part> tangent;
-        element_tangent(*model_, elements_[e], f, history[e], mass_weight, phase_tangent, vector, tangent);
+        if constexpr (part == Unknowns::phase)
+          element_phase_tangent(*model_, elements_[e], f, history[e], active_energy(e, f, level).data(), phase_tangent,
+                                vector, tangent);
+        else
+          element_tangent(*model_, elements_[e], f, history[e], mass_weight, phase_tangent, vector, tangent);
         if constexpr (spacedim == 3 && has_displacement(part))
           if (!loads.pressure.empty())
             {
@@ -364,146 +371,6 @@ void Assembler<Model>::part_mass_matrix(Matrix &matrix) const
   for (const auto &[a, field] : tied_unknowns_)
     if (field < matrix.block_size())
       matrix.diagonal(a, field) = 1.;
-}
-
-template <class Model>
-Energies Assembler<Model>::energies(const Vector &position, const Vector &velocity, const Vector &phase,
-                                    double time) const
-{
-  const auto           &owns = space_->distribution().owns;
-  std::vector<Energies> part(elements_.size());
-#pragma omp parallel for schedule(static)
-  for (std::size_t e = 0; e < elements_.size(); ++e)
-    if (owns[e])
-      part[e] = element_energies(*model_, elements_[e], fields(static_cast<int>(e), position, velocity, phase));
-  Energies sum;
-  for (const auto &energies : part)
-    sum += energies;
-  sum.constraint  = interfaces_.energy(position, phase) + weak_edges_.energy(position, phase, time);
-  double values[] = {sum.active,     sum.passive, sum.kinetic,       sum.fracture,
-                     sum.constraint, sum.bending, sum.diffuse_length};
-  MPI_Allreduce(MPI_IN_PLACE, values, 7, MPI_DOUBLE, MPI_SUM, distribution_->comm());
-  return {values[0], values[1], values[2], values[3], values[4], values[5], values[6]};
-}
-
-template <class Model>
-double Assembler<Model>::withheld_work(const BalanceLevel &level, const Vector &previous,
-                                       const QuadratureField &history) const
-{
-  const auto         &owns = space_->distribution().owns;
-  std::vector<double> part(elements_.size(), 0.);
-#pragma omp parallel for schedule(static)
-  for (std::size_t e = 0; e < elements_.size(); ++e)
-    if (owns[e])
-      {
-        const auto now    = fields(static_cast<int>(e), level.position, level.acceleration, level.phase);
-        const auto before = fields(static_cast<int>(e), level.position, level.acceleration, previous);
-        part[e]           = element_withheld_work(*model_, elements_[e], now, before.phase, history[e]);
-      }
-  double sum = std::accumulate(part.begin(), part.end(), 0.);
-  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, distribution_->comm());
-  return sum;
-}
-
-template <class Model>
-double Assembler<Model>::inertial_work(const Vector &acceleration, const Vector &displacement) const
-{
-  const auto         &owns = space_->distribution().owns;
-  std::vector<double> part(elements_.size(), 0.);
-  Vector              phase(distribution_, 1);
-#pragma omp parallel for schedule(static)
-  for (std::size_t e = 0; e < elements_.size(); ++e)
-    if (owns[e])
-      part[e] =
-          element_inertial_work(*model_, elements_[e], fields(static_cast<int>(e), displacement, acceleration, phase));
-  double sum = std::accumulate(part.begin(), part.end(), 0.);
-  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, distribution_->comm());
-  return sum;
-}
-
-template <class Model>
-QuadratureField Assembler<Model>::committed(const BalanceLevel &level, const QuadratureField &history) const
-{
-  QuadratureField result = history;
-#pragma omp parallel for schedule(static)
-  for (std::size_t e = 0; e < elements_.size(); ++e)
-    {
-      const auto f      = fields(static_cast<int>(e), level.position, level.acceleration, level.phase);
-      const auto energy = element_active_energy(*model_, elements_[e], f);
-      const auto phase  = element_phase<Model>(elements_[e], f);
-      for (int q = 0; q < n_q; ++q)
-        result[e][q] = model_->irreversibility.commit(history[e][q], energy[q], phase[q]);
-    }
-  return result;
-}
-
-template <class Model>
-std::vector<double> Assembler<Model>::intensity(const QuadratureField &history) const
-{
-  std::vector<double> result(elements_.size(), 0.);
-  for (std::size_t e = 0; e < elements_.size(); ++e)
-    for (int q = 0; q < n_q; ++q)
-      result[e] = std::max(result[e], model_->irreversibility.trial(history[e][q], 0.) /
-                                          branch::onset(model_->degradation, model_->crack_density,
-                                                        elements_[e].toughness[q], model_->length_scale));
-  return result;
-}
-
-template <class Model>
-SuspectElements Assembler<Model>::suspects(const BalanceLevel &level, const QuadratureField &history) const
-{
-  SuspectElements result;
-  for (std::size_t e = 0; e < elements_.size(); ++e)
-    {
-      const auto f         = fields(static_cast<int>(e), level.position, level.acceleration, level.phase);
-      const auto phase     = element_phase<Model>(elements_[e], f);
-      const auto bound     = *std::max_element(phase.begin(), phase.end());
-      result.largest_phase = std::max(result.largest_phase, bound);
-      if (bound <= branch::suspect_phase)
-        continue;
-      const auto energy = element_active_energy(*model_, elements_[e], f);
-      for (int q = 0; q < n_q; ++q)
-        if (branch::is_suspect(model_->degradation, model_->crack_density,
-                               model_->irreversibility.trial(history[e][q], energy[q]), phase[q],
-                               elements_[e].toughness[q], model_->length_scale))
-          {
-            result.active.push_back(static_cast<int>(e));
-            break;
-          }
-    }
-  return result;
-}
-
-template <class Model>
-int Assembler<Model>::n_turned(const Vector &before, const Vector &after) const
-{
-  const Vector no_phase(distribution_, 1);
-  int          n = 0;
-  for (std::size_t e = 0; e < elements_.size(); ++e)
-    if (space_->distribution().owns[e])
-      {
-        // Two positions side by side: the earlier one takes the place of the acceleration.
-        const auto f = fields(static_cast<int>(e), after, before, no_phase);
-        n += !keeps_orientation<Model>(elements_[e], f.acceleration, f.position);
-      }
-  return n;
-}
-
-template <class Model>
-std::vector<ElementDensities> Assembler<Model>::densities(const Vector &position, const Vector &phase) const
-{
-  std::vector<ElementDensities> result;
-  for (std::size_t e = 0; e < elements_.size(); ++e)
-    if (space_->distribution().owns[e])
-      {
-        const auto f    = fields(static_cast<int>(e), position, position, phase);
-        const auto sum  = element_energies(*model_, elements_[e], f);
-        double     area = 0.;
-        for (const auto &q : elements_[e].geometry.reference)
-          area += q.dA;
-        result.push_back({sum.elastic() / area, sum.fracture / area});
-      }
-  return result;
 }
 
 } // namespace sherd

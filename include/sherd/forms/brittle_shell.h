@@ -16,10 +16,11 @@ namespace sherd
 
 /// A brittle shell: everything that acts at a quadrature point, bundled. Its energy by reference area is
 ///
-///   Psi = g(phi) Psi+ + Psi- + Gc/(4 l0) [(phi - 1)^2 + c1 |grad phi|^2 + c2 (lap phi)^2]
+///   Psi = g(phi) Psi+ + Psi- + Gc/(4 l0) [w(phi) + c1 |grad phi|^2 + c2 (lap phi)^2]
 ///
-/// with the history H in place of Psi+ where it drives the phase. Where the surface is inhomogeneous, Psi+ and Psi- are
-/// those of the split times a factor by position.
+/// with w = (phi - 1)^2 for the crack densities of second and fourth order, and with the driving energy of the
+/// irreversibility, the history H, in place of Psi+ where it drives the phase. Where the surface is inhomogeneous, Psi+
+/// and Psi- are those of the split times a factor by position.
 ///
 /// @tparam degree    of the splines
 /// @tparam spacedim  2: a membrane in the plane; 3: a shell in space

@@ -12,7 +12,7 @@ struct Energies
   double passive        = 0.; ///< int Psi- dA
   double kinetic        = 0.; ///< int rho v.v / 2 dA
   double fracture       = 0.; ///< int Psi_frac dA
-  double constraint     = 0.; ///< of the continuity across interfaces, theory G
+  double constraint     = 0.; ///< of penalties and multipliers on interfaces and edges, theory G
   double bending        = 0.; ///< part of the elastic energy that the change of curvature adds; 0 in the plane
   double diffuse_length = 0.; ///< int Psi_frac / Gc dA [length]
 
@@ -96,29 +96,29 @@ Energies element_energies(const Model &model, const ElementData<Model> &data, co
 /// Work that the history withholds in a step, int g'(phi) (H - Psi+) dphi dA over one element [energy]: not positive
 /// while the phase falls.
 ///
-/// @param fields          at the level of the balance, where H and Psi+ belong to the same deformation: Psi+ = H where
-///                        the point loads
-/// @param previous_phase  phi at the beginning of the step, shape=(n_b)
-/// @param history         H of the step, shape=(n_q)
+/// @param phase, previous_phase   phi at the end of the step and at its beginning, shape=(n_b)
+/// @param history                 H of the step, shape=(n_q)
+/// @param energy                  Psi+ at the level of the balance, where it belongs to the same deformation as H:
+///                                Psi+ = H where the point loads; shape=(n_q)
 ///
 /// Source: theory D (energy balance).
 template <class Model>
-double element_withheld_work(const Model &model, const ElementData<Model> &data, const ElementFields<Model> &fields,
-                             const double *previous_phase, const double *history)
+double element_withheld_work(const Model &model, const ElementData<Model> &data, const double *phase,
+                             const double *previous_phase, const double *history, const double *energy)
 {
   std::optional<ShapeValues<Model::degree>> storage;
-  const auto                               &s = data.geometry.shapes(storage);
-  const FieldInterpolation<Model>           interpolation(fields);
+  const auto                               &s   = data.geometry.shapes(storage);
   double                                    sum = 0.;
   for (int q = 0; q < s.n_points; ++q)
     {
-      const auto p      = evaluate_point(model, data, interpolation.at(s, q), 0., q);
-      double     before = 0.;
+      double now = 0., before = 0.;
       for (int b = 0; b < s.n_functions; ++b)
-        before += s.value[q][b] * previous_phase[b];
-      sum += data.geometry.reference[q].dA * model.degradation.first(.5 * (before + p.phi)) *
-             (model.irreversibility.trial(history[q], p.response.energy_active) - p.response.energy_active) *
-             (p.phi - before);
+        {
+          now += s.value[q][b] * phase[b];
+          before += s.value[q][b] * previous_phase[b];
+        }
+      sum += data.geometry.reference[q].dA * model.degradation.first(.5 * (before + now)) *
+             (model.irreversibility.trial(history[q], energy[q]) - energy[q]) * (now - before);
     }
   return sum;
 }

@@ -21,8 +21,8 @@ double same_side(const Point<spacedim> &a_1, const Point<spacedim> &a_2, const P
 /// Whether the tangents a_1, a_2 of an element keep their orientation from one deformation to another, that is
 /// (a_1 x a_2) . (b_1 x b_2) > 0 at every quadrature point.
 ///
-/// An element that turned inside out has passed J = 0, where the energy is infinite, in one stride. Its metric, and with
-/// it energy and forces, are those of its mirror image and do not show it.
+/// An element that turned inside out has passed J = 0, where the energy is infinite, in one stride. Its metric, and
+/// with it energy and forces, are those of its mirror image and do not show it.
 ///
 /// @param before, after   positions, shape=(spacedim, n_b)
 ///

@@ -129,41 +129,56 @@ SurfaceFrame<spacedim> surface_frame(const PointFields<spacedim> &p)
     return {point_of<3>(p.d1), point_of<3>(p.d2), point_of<3>(p.d11), point_of<3>(p.d22), point_of<3>(p.d12)};
 }
 
-/// Fields and responses at one quadrature point.
-template <class Model>
-struct PointState
+/// The phase and what acts on it at one quadrature point.
+struct PhasePoint
 {
-  SurfaceFrame<Model::spacedim>  frame;
-  Point<Model::spacedim>         inertia; ///< acceleration
-  double                         phi, phi_1, phi_2, laplacian;
-  SplitResponse<Model::spacedim> response;   ///< with the factor of the moduli there
-  double                         driving;    ///< H, trial value
-  double                         resistance; ///< against healing, force on the phase by area [force/length]
+  double phi, phi_1, phi_2, laplacian;
+  double driving;    ///< H, trial value
+  double resistance; ///< against healing, force on the phase by area [force/length]
 };
 
-/// Evaluates quadrature point @p q from the fields there. The Laplacian of the phase on the reference surface is
-/// A^ab (phi,ab - Gamma^c_ab phi,c). Source: theory A.2.
+/// Fields and responses at one quadrature point.
 template <class Model>
-PointState<Model> evaluate_point(const Model &model, const ElementData<Model> &data,
-                                 const PointFields<Model::spacedim> &fields, double accepted_history, int q)
+struct PointState : PhasePoint
+{
+  SurfaceFrame<Model::spacedim>  frame;
+  Point<Model::spacedim>         inertia;  ///< acceleration
+  SplitResponse<Model::spacedim> response; ///< with the factor of the moduli there
+};
+
+/// The phase at quadrature point @p q from the fields there, where the active energy Psi+ is known. Its Laplacian on
+/// the reference surface is A^ab (phi,ab - Gamma^c_ab phi,c). Source: theory A.2.
+template <class Model>
+PhasePoint evaluate_phase(const Model &model, const ElementData<Model> &data,
+                          const PointFields<Model::spacedim> &fields, double accepted_history, double active_energy,
+                          int q)
 {
   constexpr int dim       = Model::spacedim;
   const auto   &reference = data.geometry.reference[q];
   const auto   &A         = reference.contravariant;
   const double  laplacian = A[0] * fields.d11[dim] + A[1] * fields.d22[dim] + 2. * A[2] * fields.d12[dim] -
                            reference.laplace_1 * fields.d1[dim] - reference.laplace_2 * fields.d2[dim];
+  const double resistance =
+      data.toughness[q] / model.length_scale * model.irreversibility.resistance(accepted_history, fields.phi());
+  return {fields.phi(),
+          fields.d1[dim],
+          fields.d2[dim],
+          laplacian,
+          model.irreversibility.trial(accepted_history, active_energy),
+          resistance};
+}
+
+/// Evaluates quadrature point @p q from the fields there.
+template <class Model>
+PointState<Model> evaluate_point(const Model &model, const ElementData<Model> &data,
+                                 const PointFields<Model::spacedim> &fields, double accepted_history, int q)
+{
   const auto        frame = surface_frame(fields);
-  PointState<Model> p{frame,
-                      internal::point_of<dim>(fields.rate),
-                      fields.phi(),
-                      fields.d1[dim],
-                      fields.d2[dim],
-                      laplacian,
-                      data.stiffness[q] * model.split.respond(surface_point(data.reference[q], frame)),
-                      0.,
-                      0.};
-  p.driving    = model.irreversibility.trial(accepted_history, p.response.energy_active);
-  p.resistance = data.toughness[q] / model.length_scale * model.irreversibility.resistance(accepted_history, p.phi);
+  PointState<Model> p{{},
+                      frame,
+                      internal::point_of<Model::spacedim>(fields.rate),
+                      data.stiffness[q] * model.split.respond(surface_point(data.reference[q], frame))};
+  static_cast<PhasePoint &>(p) = evaluate_phase(model, data, fields, accepted_history, p.response.energy_active, q);
   return p;
 }
 

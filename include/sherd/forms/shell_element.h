@@ -20,7 +20,7 @@ enum class PhaseTangent
 /// with w of the crack density, w'/2 = phi - 1 for those of second and fourth order, and the resistance r of the
 /// irreversibility against healing.
 ///
-/// @tparam part     of the unknowns; rows of the others get 0
+/// @tparam part     of the unknowns, with the displacement; rows of the others get 0
 /// @param history   accepted H at the quadrature points, shape=(n_q)
 /// @param force     overwritten
 ///
@@ -40,6 +40,18 @@ template <class Model, Unknowns part>
 void element_tangent(const Model &model, const ElementData<Model> &data, const ElementFields<Model> &fields,
                      const double *history, double mass_weight, PhaseTangent phase_tangent, ElementVector<Model> &force,
                      ElementMatrix<Model, part> &matrix);
+
+/// The residual of the phase alone; rows of the displacement get 0. It asks nothing of the material.
+/// @param energy   Psi+ of the deformation at the quadrature points, element_active_energy, shape=(n_q)
+template <class Model>
+void element_phase_force(const Model &model, const ElementData<Model> &data, const ElementFields<Model> &fields,
+                         const double *history, const double *energy, ElementVector<Model> &force);
+
+/// The same, and its tangent by the phase.
+template <class Model>
+void element_phase_tangent(const Model &model, const ElementData<Model> &data, const ElementFields<Model> &fields,
+                           const double *history, const double *energy, PhaseTangent phase_tangent,
+                           ElementVector<Model> &force, ElementMatrix<Model, Unknowns::phase> &matrix);
 
 } // namespace sherd
 

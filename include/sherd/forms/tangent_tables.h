@@ -237,33 +237,37 @@ public:
     skew_here_ = false;
   }
 
+  /// Adds a point of the phase alone.
+  void set(int k, const std::array<DerivativePack, n_derivatives> &phase_stiffness,
+           double phase_value) requires(part == Unknowns::phase)
+  {
+    const auto shapes = shapes_->at(k);
+    values_.set(k, shapes, phase_value, 0., {}, {});
+    symmetric_.set(k, shapes, phase_stiffness, {});
+  }
+
   /// Adds a point. What the part does not have is not used.
   /// @param D       dA c^abcd and so on
   /// @param total   stress times dA
   void set(int k, const SurfaceFrame<dim> &frame, const Tangent<dim> &D, const Stress<dim> &total,
            const std::array<DerivativePack, n_derivatives> &phase_stiffness, double phase_value, double mass,
-           const PointSlope<dim> &coupling, const PointSlope<dim> &driving)
+           const PointSlope<dim> &coupling, const PointSlope<dim> &driving) requires(has_displacement(part))
   {
-    const auto shapes = shapes_->at(k);
+    const auto shapes      = shapes_->at(k);
+    const bool unsymmetric = is_unsymmetric(D);
     values_.set(k, shapes, phase_value, mass, coupling, driving);
-    if constexpr (!has_displacement(part))
-      symmetric_.set(k, shapes, phase_stiffness, {});
-    else
+    symmetric_.set(
+        k, shapes, phase_stiffness,
+        point_stiffness(frame, unsymmetric ? part_of(D, Symmetry::symmetric) : D, total, Symmetry::symmetric));
+    if (unsymmetric)
       {
-        const bool unsymmetric = is_unsymmetric(D);
-        symmetric_.set(
-            k, shapes, phase_stiffness,
-            point_stiffness(frame, unsymmetric ? part_of(D, Symmetry::symmetric) : D, total, Symmetry::symmetric));
-        if (unsymmetric)
-          {
-            if (!skew_here_)
-              skew_tables_.clear_points();
-            if (!has_skew_)
-              skew_tables_.clear_sum();
-            skew_here_ = has_skew_ = true;
-            skew_tables_.set(k, shapes, {},
-                             point_stiffness(frame, part_of(D, Symmetry::skew), Stress<dim>::zero(), Symmetry::skew));
-          }
+        if (!skew_here_)
+          skew_tables_.clear_points();
+        if (!has_skew_)
+          skew_tables_.clear_sum();
+        skew_here_ = has_skew_ = true;
+        skew_tables_.set(k, shapes, {},
+                         point_stiffness(frame, part_of(D, Symmetry::skew), Stress<dim>::zero(), Symmetry::skew));
       }
   }
 

@@ -44,7 +44,8 @@ struct SurfaceTangents
 };
 
 /// Step of the parameters that brings the tangent plane closest to a point at @p offset, without the directions in
-/// which the domain ends.
+/// which the domain ends; without one in which the surface does not extend, as on a side that is drawn together to a
+/// point.
 template <int spacedim>
 Eigen::Vector2d closest_step(const Eigen::Matrix<double, spacedim, 2> &tangents, const Point<spacedim> &offset,
                              const Eigen::Vector2d &at, const Box &domain)
@@ -52,9 +53,15 @@ Eigen::Vector2d closest_step(const Eigen::Matrix<double, spacedim, 2> &tangents,
   const Eigen::Matrix2d metric   = tangents.transpose() * tangents;
   const Eigen::Vector2d gradient = tangents.transpose() * offset;
   const double          det      = metric(0, 0) * metric(1, 1) - metric(0, 1) * metric(0, 1);
+  const auto            along    = [&](int d) { return metric(d, d) > 0. ? gradient[d] / metric(d, d) : 0.; };
   Eigen::Vector2d       step(metric(1, 1) * gradient[0] - metric(0, 1) * gradient[1],
                              metric(0, 0) * gradient[1] - metric(0, 1) * gradient[0]);
   step /= det;
+  if (!(det > 1e-14 * metric.trace() * metric.trace()))
+    {
+      const int d = metric(0, 0) > metric(1, 1) ? 0 : 1;
+      step        = along(d) * Eigen::Vector2d::Unit(d);
+    }
   const auto blocked = [&](int d) {
     return (at[d] == domain.min[d] && step[d] < 0.) || (at[d] == domain.max[d] && step[d] > 0.);
   };
@@ -62,7 +69,7 @@ Eigen::Vector2d closest_step(const Eigen::Matrix<double, spacedim, 2> &tangents,
     if (blocked(d))
       {
         step[d]     = 0.;
-        step[1 - d] = gradient[1 - d] / metric(1 - d, 1 - d);
+        step[1 - d] = along(1 - d);
         if (blocked(1 - d))
           step[1 - d] = 0.;
         break;

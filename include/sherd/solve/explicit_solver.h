@@ -59,7 +59,8 @@ public:
   double largest_step() const { return largest_step_; }
 
 private:
-  static constexpr int renewal = 20; ///< steps after which the largest step is estimated anew
+  static constexpr int    renewal  = 20;   ///< steps after which the largest step is estimated anew
+  static constexpr double rounding = 1e-9; ///< of a step that ends exactly at a given time, StepController::step_within
 
   /// What acts at the end of a step.
   struct Forces

@@ -54,7 +54,7 @@ private:
   /// The consistent tangent of an earlier iterate, which the matrix still holds as the linear solver left it.
   struct KeptTangent
   {
-    double mass_weight; ///< of its step
+    double mass_weight; ///< of its step; the phase has no mass
     double contraction; ///< of the residual, to be expected from another solve with it
     bool   fresh;       ///< solved with once only
   };

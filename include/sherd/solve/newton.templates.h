@@ -167,8 +167,13 @@ bool NewtonIteration<Model, part>::iterate(Equations &equations, System &system,
   int                 n_tangents      = 0;
   bool                by_kept_tangent = false; // the increment that led to this iterate
   std::vector<double> residuals;
-  if (kept_ && kept_->mass_weight != system.stage.mass_weight())
+  if (has_displacement(part) && kept_ && kept_->mass_weight != system.stage.mass_weight())
     kept_.reset();
+  if (!has_displacement(part) && !system.active_energy)
+    {
+      const auto timing    = equations.timers().measure("residual");
+      system.active_energy = equations.assembler().active_energy(system.level());
+    }
   for (int i = 0;; ++i)
     {
       // Where this iterate should have converged, or one more solve with the tangent at hand will do, its own tangent
@@ -256,7 +261,9 @@ template <class Model, Unknowns part>
 bool NewtonIteration<Model, part>::on_stable_branch(Equations &equations, System &system,
                                                     Result &result) requires(has_phase(part))
 {
-  const auto timing   = equations.timers().measure("branch check");
+  const auto timing = equations.timers().measure("branch check");
+  if (!system.active_energy)
+    system.active_energy = equations.assembler().active_energy(system.level());
   const auto suspects = equations.assembler().suspects(system.level(), system.history);
   double     largest  = suspects.largest_phase;
   int        n        = static_cast<int>(suspects.active.size());

@@ -104,7 +104,8 @@ ResidualNorms StepEquations<Model>::balance(System &system, Vector force)
   // meaning.
   const double n_unknowns = static_cast<double>(spacedim) * space_->surface().n_control_points();
   const double floor      = 100. * std::numeric_limits<double>::epsilon() *
-                       (model_->split.bulk() + model_->split.shear() + peaks[2]) * peaks[1] * std::sqrt(n_unknowns);
+                       (assembler_->largest_stiffness() * (model_->split.bulk() + model_->split.shear()) + peaks[2]) *
+                       peaks[1] * std::sqrt(n_unknowns);
   const double reference = std::sqrt(std::max({sums[1], sums[2], sums[3]}));
   const double allowed   = settings_.displacement_tolerance * reference + floor;
   if (!std::isfinite(sums[0] + sums[1] + sums[2] + sums[3]))
@@ -151,6 +152,8 @@ auto StepEquations<Model>::take_stages(const StateType &state, double dt, const 
       result.work += work({system.level(), load_time, *total_force_, system.external},
                           difference(system.next.position, end.position), difference(system.phase, end.phase));
       result.work += work_of_rotations(system.position, state.time + elapsed, state.time + stage.dt);
+      if (!system.active_energy)
+        system.active_energy = assembler_->active_energy(system.level());
       QuadratureField history = assembler_->committed(system.level(), end.history);
       result.withheld_work += assembler_->withheld_work(system.level(), end.phase, history);
       if (stage.has_inertia())

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -42,6 +43,9 @@ struct StepSystem
   Vector increment;           ///< block n_fields
   bool   has_tangent = false; ///< whether the matrix is the tangent of this iterate
 
+  /// Psi+ of the position, where it is known; advance() forgets it when it moves the position.
+  std::optional<QuadratureField> active_energy;
+
   /// @p interfaces, @p history and @p fixed have to outlive the system.
   StepSystem(const InterfaceTerms<Model> &interfaces_, const Stage &stage_, Motion start_, Motion next_, Vector phase_,
              const QuadratureField &history_, const std::vector<char> &fixed_, LoadValues<Model> loads_,
@@ -64,7 +68,7 @@ struct StepSystem
     update_levels();
   }
 
-  BalanceLevel level() const { return {position, acceleration, phase}; }
+  BalanceLevel level() const { return {position, acceleration, phase, active_energy ? &*active_energy : nullptr}; }
 
   /// Adds @p length times the increment; its phase part is scaled down to @p largest_phase_step.
   void advance(double length, double largest_phase_step)
@@ -72,17 +76,23 @@ struct StepSystem
     const auto   d     = increment.local();
     const int    n     = phase.distribution().n_local();
     const double scale = length * phase_scale(largest_phase_step);
+    bool         moves = false;
     for (int a = 0; a < n; ++a)
       {
         if (interfaces.is_multiplier(a)) // it has no rates
           next.position.local()[a * spacedim] += length * d[a * n_fields];
         else
           for (int c = 0; c < spacedim; ++c)
-            move(stage, next, a * spacedim + c, length * d[a * n_fields + c] / stage.alpha_f);
+            {
+              moves |= d[a * n_fields + c] != 0.;
+              move(stage, next, a * spacedim + c, length * d[a * n_fields + c] / stage.alpha_f);
+            }
         phase.local()[a] += scale * d[a * n_fields + spacedim];
       }
     update_levels();
     has_tangent = false;
+    if (moves)
+      active_energy.reset();
   }
 
   void update_levels()

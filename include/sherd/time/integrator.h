@@ -67,7 +67,7 @@ concept ExplicitIntegrator = TimeIntegrator<Rule> && requires
   requires Rule::is_explicit;
 };
 
-/// A rule whose stages are solved for displacement and phase together.
+/// A rule whose stages have to be solved for displacement and phase.
 template <class Rule>
 concept ImplicitIntegrator = TimeIntegrator<Rule> && !ExplicitIntegrator<Rule>;
 

@@ -67,8 +67,9 @@ struct StepControlSettings
 ///
 ///   (0.8 tolerance / e)^(0.7/3) (e_before / 0.8 tolerance)^(0.4/3), between rejected_again and few;
 ///
-/// a step with e > tolerance is rejected. Whatever the rule, a step that was shortened to end at a given time does not
-/// let the next ones grow: it says nothing of longer ones.
+/// a step with e > tolerance is repeated with (0.8 tolerance / e)^(1/3). Whatever the rule, a step that was shortened
+/// to end at a given time does not let the next ones grow: it says nothing of longer ones, nor does its error of a
+/// trend.
 ///
 /// Source: theory F.3.
 class StepController
@@ -182,7 +183,7 @@ public:
           const double wished = taken * error_factor(error);
           if (!shortened || wished < taken)
             dt_ = std::min(wished, largest_);
-          previous_error_ = error;
+          previous_error_ = shortened ? 0. : error; // that of a shorter step tells no trend
           break;
         }
       }
@@ -216,9 +217,8 @@ public:
   /// @throws NoConvergence   as reject()
   void reject_inaccurate(double error, double attempted)
   {
-    const double factor = std::isfinite(error)
-                              ? std::max(.9 * std::cbrt(settings_.tolerance / error), settings_.rejected_again)
-                              : settings_.rejected_again;
+    const double factor =
+        std::isfinite(error) ? std::max(std::cbrt(aim() / error), settings_.rejected_again) : settings_.rejected_again;
     shorten(attempted, factor,
             "the estimated error " + print(error) + " exceeds the tolerance " + print(settings_.tolerance),
             "try a larger tolerance or rule newton");
