@@ -190,6 +190,41 @@ TEST_CASE("Interfaces: a multiplier has the equations of its constraints and not
     }
 }
 
+TEST_CASE("Interfaces: the multiplier of the angle is soft where the sheet is broken, and nothing else changes")
+{
+  Joined     joined(MPI_COMM_WORLD, continuity::LagrangeMultiplier{});
+  const auto soften = [&](double phi) {
+    Vector phase = joined.state.phase;
+    phase.fill(phi);
+    joined.assembler.soften_interfaces(phase);
+    return joined.tangent();
+  };
+  const auto   intact = soften(1.), before = joined.tangent();
+  const double least = continuity::penalty_factor(2) / InterfaceTerms<Shell>::multiplier_factor;
+  CHECK(largest(intact - before) == 0.);
+  for (const double phi : {0., .1, .5})
+    {
+      const auto   K = soften(phi);
+      const double g = joined.assembler.model().degradation.value(phi);
+      for (int i = 4 * joined.space.n_control_points(); i < K.rows(); i += 4)
+        CHECK(K(i, i) / intact(i, i) == Approx((1. + least) / (g + least)).epsilon(1e-12));
+      Eigen::MatrixXd change = K - intact;
+      for (int i = 4 * joined.space.n_control_points(); i < K.rows(); i += 4)
+        change(i, i) = 0.;
+      CHECK(largest(change) == 0.);
+
+      const auto      d      = joined.random_values();
+      const auto      energy = [&](double h) { return joined.energies(h, d).constraint; };
+      const Joined    apart(MPI_COMM_WORLD, continuity::None{});
+      Eigen::VectorXd of_interfaces = joined.force(0., d);
+      of_interfaces.head(4 * joined.space.n_control_points()) -=
+          apart.force(0., d.head(4 * joined.space.n_control_points()));
+      const auto slope = verify::check_derivative(energy, of_interfaces.dot(d), 1e-3, 8);
+      CAPTURE(phi, slope.order, slope.smallest_defect);
+      CHECK(slope.passed());
+    }
+}
+
 TEST_CASE("Interfaces: ranks change nothing but rounding")
 {
   for (const auto &method : methods)

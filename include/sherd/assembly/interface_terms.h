@@ -19,7 +19,8 @@ namespace sherd
 /// A multiplier point has a block of n_fields entries. Entry 0 of its position is the multiplier q of the angle, its
 /// phase value is that of the phase; the others are not used and have the equation dx = 0. Multipliers are slightly
 /// compliant, K_qq = -int dS/eps with eps of theory G.3 for beta = 1e8: the penalty of that factor, reached without its
-/// condition number. So constraints may depend on each other, as they do in corners (theory G.4).
+/// condition number. So constraints may depend on each other, as they do in corners (theory G.4). Where the sheet is
+/// broken the multiplier of the angle is as compliant as a penalty is, see soften().
 ///
 /// The loops over interfaces are serial; they are few.
 template <class Model>
@@ -36,6 +37,11 @@ public:
   /// @param ties   of the surface of @p space
   /// @throws InvalidParameter   a toughness that is not positive: on all ranks
   InterfaceTerms(const Model &model, const ShellSpace<degree, spacedim> &space, const std::vector<Tie> &ties);
+
+  /// Makes multipliers of the angle compliant where the sheet is broken at @p phase: eps (g + beta_0 / beta) with the
+  /// mean of g(phi) over a piece and beta_0 the default factor of penalties (theory G.4). A broken sheet has nothing to
+  /// resist a moment with, and a constraint would turn it over.
+  void soften(const Model &model, const Vector &phase);
 
   /// Adds the forces on the owned control points and the residuals of owned multipliers, block n_fields, in the rows of
   /// the part.
@@ -79,11 +85,12 @@ private:
     CellScatter<n_fields>             scatter;
     int                               multiplier = -1; ///< local point
     bool                              owned;
-    double                            angle_stiffness  = 0.; ///< eps; 0: no penalty
-    double                            angle_compliance = 0.; ///< -K_qq of the angle
-    double                            phase_compliance = 0.; ///< -K_qq of the phase
-    Eigen::MatrixXd                   phase_penalty;         ///< shape=(n, n) or empty
-    Eigen::VectorXd                   phase_jump;            ///< shape=(n) or empty
+    double                            angle_stiffness   = 0.; ///< eps; 0: no penalty
+    double                            angle_compliance  = 0.; ///< -K_qq of the angle, of the sheet as it is
+    double                            intact_compliance = 0.; ///< the same of the intact sheet
+    double                            phase_compliance  = 0.; ///< -K_qq of the phase
+    Eigen::MatrixXd                   phase_penalty;          ///< shape=(n, n) or empty
+    Eigen::VectorXd                   phase_jump;             ///< shape=(n) or empty
 
     Eigen::Index n() const { return static_cast<Eigen::Index>(tables.points.size()); }
     bool         has_multiplier() const { return multiplier >= 0; }

@@ -50,8 +50,10 @@ InterfaceTerms<Model>::InterfaceTerms(const Model &model, const ShellSpace<degre
         for (const auto &point : cell.tables.quadrature)
           factor = std::max(factor, model.stiffness(point.position));
         const double eps = internal::angle_penalty(beta_angle, factor * stiffness, cell.tables.size);
-        if (stiffness > 0.)
-          (penalty ? cell.angle_stiffness : cell.angle_compliance) = penalty ? eps : cell.tables.length / eps;
+        if (stiffness > 0. && penalty)
+          cell.angle_stiffness = eps;
+        if (stiffness > 0. && !penalty)
+          cell.angle_compliance = cell.intact_compliance = cell.tables.length / eps;
         if (penalty)
           sensitivity_ = std::max(sensitivity_, eps / cell.tables.size);
         if (std::remove_cvref_t<decltype(model.crack_density)>::order == 4)
@@ -75,6 +77,21 @@ void InterfaceTerms<Model>::set_phase_terms(const Model &model, Cell &cell, doub
     cell.phase_jump = cell.scatter.to_masters(spacedim, phase_jump(cell.tables));
   else
     cell.phase_penalty = cell.scatter.to_masters(spacedim, spacedim, phase_penalty_matrix(cell.tables, eps));
+}
+
+template <class Model>
+void InterfaceTerms<Model>::soften(const Model &model, const Vector &phase)
+{
+  constexpr double least = continuity::penalty_factor(degree) / multiplier_factor;
+  for (auto &cell : cells_)
+    if (cell.has_angle_multiplier())
+      {
+        const auto phi = cell.scatter.phase(phase, cell.n());
+        double     sum = 0.;
+        for (const auto &point : cell.tables.quadrature)
+          sum += point.dS * std::max(0., model.degradation.value(point.value.dot(phi)));
+        cell.angle_compliance = cell.intact_compliance / (sum / cell.tables.length + least);
+      }
 }
 
 template <class Model>

@@ -25,6 +25,7 @@ struct InterfaceTables
   {
     Point<spacedim>                          position; ///< X
     double                                   dS;       ///< reference length times the quadrature weight, [length]
+    Eigen::VectorXd                          value;    ///< N_A on the interface, the same of both sides, shape=(n)
     Eigen::Matrix<double, 4, Eigen::Dynamic> slopes;   ///< N_A,1 N_A,2 of the first side, N_A,1 N_A,2 of the second
     Eigen::VectorXd jump;      ///< b_A = nu^a N_A,a of both sides, conormals outward [1/length], shape=(n)
     CosineSine      reference; ///< of the angle between the reference surfaces; spacedim 3
@@ -80,6 +81,7 @@ InterfaceTables<degree, spacedim> interface_tables(const InterfaceGeometry<degre
       auto       &to   = tables.quadrature[q];
       to.position      = from.position;
       to.dS            = from.dS;
+      to.value         = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(points.size()));
       to.slopes        = Eigen::MatrixXd::Zero(4, static_cast<Eigen::Index>(points.size()));
       to.jump          = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(points.size()));
       tables.length += from.dS;
@@ -91,6 +93,8 @@ InterfaceTables<degree, spacedim> interface_tables(const InterfaceGeometry<degre
             {
               const auto A =
                   std::lower_bound(points.begin(), points.end(), geometry.sides[s].points[k]) - points.begin();
+              if (s == 0)
+                to.value[A] += side.value[k];
               to.slopes(2 * s, A) += side.d1[k];
               to.slopes(2 * s + 1, A) += side.d2[k];
               to.jump[A] += side.conormal[0] * side.d1[k] + side.conormal[1] * side.d2[k];

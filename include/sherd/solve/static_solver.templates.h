@@ -57,6 +57,7 @@ void StaticSolver<Model>::rebuild(const StateType &state)
 {
   supported_.emplace(*supports_, *space_);
   assembler_.emplace(*model_, *space_, state.distribution, supported_->ties(), supports_->weak_edges());
+  assembler_->soften_interfaces(state.phase);
   matrix_.emplace(assembler_->make_matrix());
   linear_solver_.forget();
   unloaded_ = assembler_->evaluate(*loads_, 0.);
