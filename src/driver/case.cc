@@ -48,6 +48,9 @@ void Case::resolve()
   if (solver == SolverChoice::arc_length && time.integrator != "quasi_static")
     throw InvalidParameter("time.integrator = " + time.integrator +
                            " with solver = arc_length, which follows equilibria; use quasi_static");
+  if (time.integrator == "quasi_static" && time.steps.rule == StepRule::error)
+    throw InvalidParameter("time.steps.rule = error with time.integrator = quasi_static, whose steps have no error in "
+                           "time; use newton or fixed");
   if (rests && (!stop.crack_at.empty() || stop.crack_length || stop.elastic_share))
     throw InvalidParameter(
         "stop: with solver = arc_length and modes no crack grows; the path ends at time.end or after "

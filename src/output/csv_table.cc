@@ -13,6 +13,8 @@ namespace sherd
 namespace
 {
 
+constexpr const char *no_part_of_cells = ",\"\n\r";
+
 std::string join(const std::vector<std::string> &cells)
 {
   std::string line;
@@ -45,6 +47,13 @@ std::string exact(double value)
   return {buffer, end};
 }
 
+std::string column_name(std::string name)
+{
+  for (auto at = name.find_first_of(no_part_of_cells); at != name.npos; at = name.find_first_of(no_part_of_cells, at))
+    name[at] = ' ';
+  return name;
+}
+
 CsvRow &CsvRow::operator<<(double value)
 {
   add(exact(value));
@@ -65,7 +74,7 @@ CsvRow &CsvRow::operator<<(long value)
 
 CsvRow &CsvRow::operator<<(const std::string &text)
 {
-  if (text.find_first_of(",\"\n\r") != std::string::npos)
+  if (text.find_first_of(no_part_of_cells) != std::string::npos)
     throw InvalidParameter("table cell '" + text + "' contains a comma, a quote or a line end");
   add(text);
   return *this;
@@ -79,6 +88,10 @@ void CsvRow::add(const std::string &cell)
 CsvTable::CsvTable(const std::filesystem::path &file, std::vector<std::string> columns)
     : file_(file), columns_(std::move(columns))
 {
+  for (const auto &name : columns_)
+    if (name.find_first_of(no_part_of_cells) != std::string::npos)
+      throw InvalidParameter("table " + file_.string() + ": the column name '" + name +
+                             "' contains a comma, a quote or a line end");
   replace_file(file_, join(columns_) + "\n");
   open();
 }

@@ -103,6 +103,17 @@ TEST_CASE("Integrators and solvers that do not belong together are refused")
   CHECK_THAT(with("integrator: bathe", "solver: modes\nstop: {crack_length: 1}\n"), Contains("no crack grows"));
   CHECK_THAT(with("integrator: hht, rho_inf: 0.5", ""), Contains("has no rho_inf"));
   CHECK_THAT(with("integrator: newmark, beta: 0.1", ""), Contains("beta"));
+
+  // What has no inertia has no error in time, and steps by it would grow without end.
+  const auto by_error = [](const std::string &integrator) {
+    return refusal([&] {
+      read_case("fracture: {length_scale: 0.1}\nrefinement: {target: 0.05}\n" + material +
+                "time: {end: 1, integrator: " + integrator + ", steps: {initial: 0.1, rule: error}}\n")
+          .resolve();
+    });
+  };
+  CHECK(by_error("bathe") == "");
+  CHECK_THAT(by_error("quasi_static"), Contains("rule = error") && Contains("newton or fixed"));
 }
 
 TEST_CASE("Degradation functions take their own parameters only")

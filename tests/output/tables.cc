@@ -40,6 +40,11 @@ TEST_CASE("CsvTable: every row is on disk at once", "[output][csv]")
   CHECK(test::content(folder.path() / "deep" / "t.csv") == "time,name,n\n0.5,a,3\n");
   CHECK_THROWS_AS(table.append(CsvRow() << 1.), DimensionMismatch);
   CHECK_THROWS_AS(CsvRow() << std::string("a,b"), InvalidParameter);
+  // An edge of a geometry file may be called anything; its load has a column.
+  CHECK_THROWS_AS(CsvTable(folder.path() / "t.csv", {"time", "traction left,upper"}), InvalidParameter);
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "t.csv"));
+  CHECK(column_name("traction left, \"upper\"\n") == "traction left   upper  ");
+  CHECK(column_name("pressure 2") == "pressure 2");
 }
 
 TEST_CASE("CsvTable: a resumed table keeps the rows up to its time and no torn one", "[output][csv]")

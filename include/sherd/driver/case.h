@@ -28,6 +28,12 @@ enum class SolverChoice
   modes       ///< free vibrations of the body as it is
 };
 
+/// Equilibria of a path: what of StaticSettings the arc length uses.
+struct EquilibriumParameters : StaticSettings
+{
+  void declare(ParameterSection &section) { declare_equilibrium(section); }
+};
+
 /// Everything a case file says.
 struct Case
 {
@@ -41,7 +47,7 @@ struct Case
   TimeParameters                  time;
   SolverChoice                    solver = SolverChoice::monolithic;
   NewtonSettings                  newton;
-  StaticSettings                  statics;
+  EquilibriumParameters           statics;
   ArcLengthSettings               arc_length;
   EigenSettings                   modes;
   RefinementSettings              refinement;

@@ -22,7 +22,7 @@ struct CaseKernel
   void (*run)(const Environment &, const Case &);
 };
 
-/// All of them; src/driver/CMakeLists.txt says which.
+/// All of them; src/cmake/SherdDriver.cmake says which.
 const std::vector<CaseKernel> &case_kernels();
 
 /// The main program: resolves @p prm and runs it with the kernel of its degree and dimension.

@@ -11,6 +11,10 @@ namespace sherd
 /// Shortest text that reads back as exactly this number; "nan", "inf", "-inf" for those.
 std::string exact(double value);
 
+/// @p name with a blank in the place of each comma, quote and line end, which a table does not take: names that others
+/// have given, as those of edges in geometry files.
+std::string column_name(std::string name);
+
 /// One row of a CsvTable, filled from left to right.
 class CsvRow
 {
@@ -35,7 +39,9 @@ private:
 class CsvTable
 {
 public:
-  /// Starts a file anew. @throws FileError   if it cannot be written
+  /// Starts a file anew.
+  /// @throws InvalidParameter   a column name with a comma, quote or line end   @throws FileError   if it cannot be
+  ///                            written
   CsvTable(const std::filesystem::path &file, std::vector<std::string> columns);
 
   /// Goes on with an existing file: keeps the rows with column "time" up to @p time, drops later and torn ones.

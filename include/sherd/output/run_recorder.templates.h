@@ -53,7 +53,8 @@ struct RunRecorder<degree, spacedim>::Files
   static std::vector<std::string> work_columns(const RecorderSettings<spacedim> &settings)
   {
     std::vector<std::string> columns{"step", "time", "supports"};
-    columns.insert(columns.end(), settings.loads.begin(), settings.loads.end());
+    for (const auto &load : settings.loads)
+      columns.push_back(column_name(load));
     return columns;
   }
 

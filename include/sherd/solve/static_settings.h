@@ -17,10 +17,16 @@ struct StaticSettings
 
   void declare(ParameterSection &section)
   {
-    section.value("tolerance", tolerance, "-", range::open(0., 1.), "residual over the larger of load and reaction");
+    declare_equilibrium(section);
     section.value("max_iterations", max_iterations, range::at_least(1), "Newton iterations of a load step");
     section.value("divergence", divergence, "-", range::positive(), "growth of the residual that ends a load step");
     section.subsection("line_search", line_search, "length of Newton's steps");
+  }
+
+  /// What the arc length asks of its points: its corrector has iterations of its own.
+  void declare_equilibrium(ParameterSection &section)
+  {
+    section.value("tolerance", tolerance, "-", range::open(0., 1.), "residual over the larger of load and reaction");
     section.subsection("linear", linear, "linear solver");
   }
 };
