@@ -169,7 +169,7 @@ TEST_CASE("A crack grows, the mesh follows, and the books balance")
   CHECK(body.state.time == .3);
   CHECK(body.state.step == n);
   CHECK(tip(body) > start + 2.);
-  CHECK(refined > 0);
+  CHECK(refined > repeated); // some steps were accepted first
   CHECK(body.plate.n_elements() > elements);
   CHECK(std::abs(books.balance()) < .02);
   // What is left over is the integrator's, but for the residuals that Newton's method leaves: 1e-6 of the reactions.
