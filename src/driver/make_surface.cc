@@ -64,6 +64,9 @@ Surface<degree, spacedim> make_flat(const Environment &env, const SurfaceParamet
   const auto &all = p.shapes;
   if (p.shape == "plate")
     return shapes::plate<degree, spacedim>(all.plate.size, all.plate.elements);
+  if (p.shape == "notched_plate")
+    return shapes::notched_plate<degree, spacedim>(all.notched_plate.size, all.notched_plate.tip,
+                                                   all.notched_plate.elements);
   if (p.shape == "annular_plate")
     {
       const auto &s = all.annular_plate;

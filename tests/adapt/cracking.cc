@@ -157,6 +157,11 @@ TEST_CASE("A crack grows, the mesh follows, and the books balance")
       CHECK(s.dt <= body.controller.largest() * (1. + 1e-12));
       previous = body.state.time;
       ++n;
+      // Forces on the supports are those of the step, also where the mesh was refined after it; above and below are
+      // alike but for the rounding of the mesh.
+      const auto top = body.solver.reaction("top"), bottom = body.solver.reaction("bottom");
+      CHECK(top[1] > 0.);
+      CHECK(bottom[1] == Approx(-top[1]).epsilon(1e-3));
       // paper Eq. (13); the last two steps are cut to end in time.
       if (s.refined > 0 && body.state.time < .25)
         CHECK(body.controller.step() == Approx(.2 * s.dt));
@@ -164,7 +169,7 @@ TEST_CASE("A crack grows, the mesh follows, and the books balance")
   CHECK(body.state.time == .3);
   CHECK(body.state.step == n);
   CHECK(tip(body) > start + 2.);
-  CHECK(refined > 0);
+  CHECK(refined > repeated); // some steps were accepted first
   CHECK(body.plate.n_elements() > elements);
   CHECK(std::abs(books.balance()) < .02);
   // What is left over is the integrator's, but for the residuals that Newton's method leaves: 1e-6 of the reactions.

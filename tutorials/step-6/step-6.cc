@@ -35,6 +35,11 @@ enum class Loading
   tension,
   shear
 };
+enum class Notch
+{
+  slit, ///< in the geometry: two edges without traction
+  crack ///< a crack of the phase field that is there from the start
+};
 enum class Split
 {
   none,
@@ -77,8 +82,9 @@ struct Parameters
 {
   Material              material;
   Loading               loading      = Loading::tension;
+  Notch                 notch        = Notch::slit;
   double                side         = 1.;
-  std::array<int, 2>    elements     = {17, 17};
+  std::array<int, 2>    elements     = {18, 18};
   Method                method       = Method::staggered;
   double                speed        = 1e-2;
   double                end          = .65;
@@ -103,6 +109,8 @@ struct Parameters
     section.subsection("material", material, "steel, linear elastic");
     section.choice("loading", loading, {{"tension", Loading::tension}, {"shear", Loading::shear}},
                    "how the upper edge moves");
+    section.choice("notch", notch, {{"slit", Notch::slit}, {"crack", Notch::crack}},
+                   "a slit between patches of the plate or a crack of the phase field");
     section.value("side", side, "mm", range::positive(), "of the square; the notch runs from the left to the centre");
     section.value("elements", elements, range::at_least(1), "elements along both sides before refinement");
     section.choice("method", method,
@@ -140,6 +148,22 @@ split::Any<2> make_split(const Material &material)
     }
 }
 
+// A slit is a line along which patches are not joined. Where it ends, four patches share a corner.
+Surface<2, 2> make_blank(const Parameters &prm)
+{
+  if (prm.notch == Notch::slit)
+    return shapes::notched_plate<2, 2>({prm.side, prm.side}, {.5 * prm.side, .5 * prm.side}, prm.elements);
+  return shapes::plate<2, 2>({prm.side, prm.side}, prm.elements);
+}
+
+// The other notch is a crack as it looks when it has grown: the phase ahead of its end is below 1 from the start.
+std::vector<Polyline<2>> initial_cracks(const Parameters &prm)
+{
+  if (prm.notch == Notch::slit)
+    return {};
+  return {Polyline<2>({{0., .5 * prm.side}, {.5 * prm.side, .5 * prm.side}})};
+}
+
 // The lower edge is held. In shear the sides may not move up or down either, as in the publications.
 Supports make_supports(const Parameters &prm)
 {
@@ -167,12 +191,14 @@ void load_plate(const Environment &env, const Parameters &prm, const AnyIntegrat
                     crack_density::Any(crack_density::SecondOrder()), material.toughness, material.length_scale,
                     material.density);
 
-  const auto        blank = shapes::plate<2, 2>({prm.side, prm.side}, prm.elements);
+  // Patches share values where they are joined. In the plane, with a density that has no second derivatives, no more is
+  // asked for: continuity::None.
+  const auto        blank = make_blank(prm);
   auto              plate = blank;
-  ShellSpace<2, 2>  space(env, plate);
+  ShellSpace<2, 2>  space(env, plate, continuity::None());
   const auto        supports = make_supports(prm);
   const Loads<2>    loads;
-  const PreCrack<2> notch({Polyline<2>({{0., .5 * prm.side}, {.5 * prm.side, .5 * prm.side}})}, material.length_scale);
+  const PreCrack<2> cracks(initial_cracks(prm), material.length_scale);
 
   Solver            solver(model, space, supports, loads, integrator, prm.newton);
   Adaptivity<Plate> adaptivity(blank, prm.refinement);
@@ -194,7 +220,7 @@ void load_plate(const Environment &env, const Parameters &prm, const AnyIntegrat
       // In an unstable step the crack does not wait for the mesh.
       if (!prm.path.empty())
         refine_along(plate, Polyline<2>(prm.path), prm.path_width, prm.refinement.target);
-      adaptivity.prepare(solver, plate, space, state, notch);
+      adaptivity.prepare(solver, plate, space, state, cracks);
       controller.bound(solver.assembler().shortest_edge(), solver.rayleigh_speed());
     }
 
@@ -241,6 +267,6 @@ void choose_method(const Environment &env, const Parameters &prm)
 int main(int argc, char **argv)
 {
   return run_restartable<step_6::Parameters>(
-      argc, argv, {"material", "loading", "side", "elements", "speed", "refinement", "path", "path_width"},
+      argc, argv, {"material", "loading", "notch", "side", "elements", "speed", "refinement", "path", "path_width"},
       step_6::choose_method);
 }

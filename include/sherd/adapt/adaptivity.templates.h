@@ -181,6 +181,7 @@ StepSummary Adaptivity<Model>::advance(Solver &solver, SurfaceType &surface, Spa
         controller.accept(result.newton, result.error, dt);
       else
         {
+          solver.keep_reactions();
           refine(solver, surface, space, state, triggers);
           controller.refine();
           controller.bound(solver.assembler().shortest_edge(), solver.rayleigh_speed());

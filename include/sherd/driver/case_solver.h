@@ -36,6 +36,7 @@ public:
   }
 
   void   rebuild(const StateType &state) { solver_->rebuild(state); }
+  void   keep_reactions() { solver_->keep_reactions(); }
   void   equilibrate_phase(StateType &state) { solver_->equilibrate_phase(state); }
   void   set_initial_acceleration(StateType &state) { solver_->set_initial_acceleration(state); }
   Result attempt(const StateType &state, double dt) { return solver_->attempt(state, dt); }
@@ -58,6 +59,7 @@ private:
   {
     virtual ~Interface()                                                              = default;
     virtual void                                rebuild(const StateType &)            = 0;
+    virtual void                                keep_reactions()                      = 0;
     virtual void                                equilibrate_phase(StateType &)        = 0;
     virtual void                                set_initial_acceleration(StateType &) = 0;
     virtual Result                              attempt(const StateType &, double)    = 0;
@@ -78,6 +80,7 @@ private:
     explicit Chosen(std::unique_ptr<Solver> solver) : s(std::move(solver)) {}
 
     void                    rebuild(const StateType &state) override { s->rebuild(state); }
+    void                    keep_reactions() override { s->keep_reactions(); }
     void                    equilibrate_phase(StateType &state) override { s->equilibrate_phase(state); }
     void                    set_initial_acceleration(StateType &state) override { s->set_initial_acceleration(state); }
     Result                  attempt(const StateType &state, double dt) override { return s->attempt(state, dt); }

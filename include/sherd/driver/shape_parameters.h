@@ -61,6 +61,20 @@ struct Plate
   }
 };
 
+struct NotchedPlate
+{
+  std::array<double, 2> size     = {1., 1.};
+  std::array<double, 2> tip      = {.5, .5};
+  std::array<int, 2>    elements = {10, 10};
+
+  void declare(ParameterSection &section)
+  {
+    section.value("size", size, "length", range::positive(), "width and height");
+    section.value("tip", tip, "length", range::positive(), "where the slit from the left edge ends; it runs along x");
+    declare_elements(section, elements, "along width and height");
+  }
+};
+
 struct AnnularPlate
 {
   double                inner = 1., outer = 2.;
@@ -282,6 +296,7 @@ namespace sherd
 struct ShapeParameters
 {
   shape_parameters::Plate              plate;
+  shape_parameters::NotchedPlate       notched_plate;
   shape_parameters::AnnularPlate       annular_plate;
   shape_parameters::Polygon            polygon;
   shape_parameters::Cylinder           cylinder;
@@ -302,6 +317,8 @@ struct ShapeParameters
   void for_each(const Visit &visit)
   {
     visit("plate", plate, 2, "flat rectangle; edges left, right, bottom, top");
+    visit("notched_plate", notched_plate, 2,
+          "flat rectangle with a slit from the left; edges of plate, lower_face, upper_face");
     visit("annular_plate", annular_plate, 2, "flat ring or part of one; edges inner, outer, begin, end");
     visit("polygon", polygon, 2, "flat regular polygon, one patch a corner; edge outer");
     visit("cylinder", cylinder, 3, "part of a cylinder about the x axis; edges left, right, bottom, top");

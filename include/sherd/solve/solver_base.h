@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <string>
 
 #include <sherd/solve/newton.h>
@@ -67,11 +68,23 @@ public:
   }
 
   /// Sum of the internal and inertial forces on a named edge, at the end of the last attempted step: what its supports
-  /// and loads exert on the surface, shape=(spacedim). Collective.
+  /// and loads exert on the surface, shape=(spacedim). After rebuild() those of keep_reactions(), or zero. Collective.
   Point<spacedim> reaction(const std::string &edge) const
   {
-    const auto &force = equations_.total_force();
-    return force ? edge_force(space(), *force, edge) : Point<spacedim>(Point<spacedim>::Zero());
+    if (const auto &force = equations_.total_force())
+      return edge_force(space(), *force, edge);
+    const auto kept = kept_reactions_.find(edge);
+    return kept == kept_reactions_.end() ? Point<spacedim>(Point<spacedim>::Zero()) : kept->second;
+  }
+
+  /// Keeps reaction() of all named edges over a rebuild(): forces are known by control point and those of a step go
+  /// with the mesh that it was taken on. Call it before that is refined. Collective.
+  void keep_reactions()
+  {
+    std::map<std::string, Point<spacedim>> reactions;
+    for (const auto &[edge, sides] : space().surface().edges())
+      reactions[edge] = reaction(edge);
+    kept_reactions_ = std::move(reactions);
   }
 
   /// c_R of the undamaged surface where it is stiffest (theory F.3). After rebuild().
@@ -92,6 +105,9 @@ protected:
 
   StepEquations<Model>         equations_;
   NewtonIteration<Model, part> newton_;
+
+private:
+  std::map<std::string, Point<spacedim>> kept_reactions_;
 };
 
 } // namespace sherd

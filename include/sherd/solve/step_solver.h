@@ -36,13 +36,14 @@ struct StepResult
 /// A solver of steps: all of them solve the same discrete problem and share what they say of it.
 ///
 /// rebuild() prepares for the present mesh and comes first; attempt() is collective, throws only what no smaller step
-/// could mend, and leaves everything as it was if it fails. largest_step() is the largest stable step at present,
-/// infinite for implicit schemes.
+/// could mend, and leaves everything as it was if it fails. keep_reactions() comes before the mesh of an accepted step
+/// is refined. largest_step() is the largest stable step at present, infinite for implicit schemes.
 template <class Solver>
 concept StepSolver = requires(Solver &solver, const Solver &fixed, typename Solver::StateType &state, double dt,
                               const std::string &edge)
 {
   solver.rebuild(state);
+  solver.keep_reactions();
   solver.equilibrate_phase(state);
   solver.set_initial_acceleration(state);
   {
