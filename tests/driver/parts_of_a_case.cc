@@ -98,6 +98,13 @@ TEST_CASE("Every shape is made from its defaults")
   prm.shape = "plate";
   prm.cut   = {2, 3};
   CHECK(make_surface<2, 3>(env, prm).n_patches() == 6);
+  prm.cut                      = {1, 1};
+  prm.shape                    = "notched_plate";
+  prm.shapes.notched_plate.tip = {.25, .75};
+  const auto notched           = make_surface<2, 2>(env, prm);
+  CHECK(notched.interfaces().size() == 3); // of the four patches around the tip: the slit is open
+  const auto face = points_along(notched, notched.edge("upper_face").front());
+  CHECK((notched.control_points().row(face.back()).transpose() - Point<2>(.25, .75)).norm() < 1e-14);
   prm.shape            = "file";
   prm.shapes.file.name = "sheet.step";
   CHECK_THAT(refusal([&] { make_surface<2, 3>(env, prm); }), Contains(".xml") && Contains(".g2"));
