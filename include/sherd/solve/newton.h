@@ -44,7 +44,8 @@ public:
   Matrix &matrix() { return *matrix_; }
 
   /// Solves the system and checks that its state is on the stable branch of the phase equation; if it is not, switches
-  /// the branch (theory C.2) and solves once more. False, with the reason in @p result, if that fails.
+  /// the branch (theory C.2) and solves once more; with the displacement held it does so too where there is no
+  /// convergence. False, with the reason in @p result, if that fails.
   bool find_stable_state(Equations &equations, System &system, Result &result) requires(has_phase(part));
 
   /// Newton's method alone.

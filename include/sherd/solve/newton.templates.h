@@ -291,10 +291,14 @@ bool NewtonIteration<Model, part>::find_stable_state(Equations &equations, Syste
   const Vector start = system.phase;
   try
     {
-      if (!iterate(equations, system, result))
-        return false;
-      if (on_stable_branch(equations, system, result))
+      const bool converged = iterate(equations, system, result);
+      if (converged && on_stable_branch(equations, system, result))
         return true;
+      // Where the displacement is held and the branch of the phase ends, a smaller step leads nowhere either: the next
+      // solution lies downhill.
+      if (!converged && has_displacement(part))
+        return false;
+      result.failure.clear();
       leave_false_branch(equations, system, start, result);
       if (!iterate(equations, system, result))
         return false;
