@@ -90,7 +90,8 @@ public:
   /// for them.
   const InterfaceTerms<Model> &interfaces() const { return interfaces_; }
 
-  /// Softens them where the sheet is broken at @p phase, InterfaceTerms::soften(): to be told at the start of each step.
+  /// Softens them where the sheet is broken at @p phase, InterfaceTerms::soften(): to be told at the start of each
+  /// step.
   void soften_interfaces(const Vector &phase) { interfaces_.soften(*model_, phase); }
 
   /// Weak conditions on edges, at the time of the loads that go with a call.
