@@ -3,12 +3,14 @@
 
 #include <catch2/catch.hpp>
 
+#include <geometry/area.h>
 #include <geometry/sample_surfaces.h>
 #include <sherd/geometry/element_geometry.h>
 #include <sherd/geometry/place.h>
 #include <sherd/geometry/shapes.h>
 
 using namespace sherd;
+using sherd::test::area;
 using shapes::Fit;
 
 namespace
@@ -48,16 +50,6 @@ double largest_along(const Surface<degree, spacedim> &surface, const std::string
       result = std::max(result, std::abs(f(position(surface, {0, u, v}))));
     }
   return result;
-}
-
-template <int degree, int spacedim>
-double area(const Surface<degree, spacedim> &surface)
-{
-  double sum = 0.;
-  for (int e = 0; e < surface.n_elements(); ++e)
-    for (const auto &q : element_geometry(surface, e).reference)
-      sum += q.dA;
-  return sum;
 }
 
 /// Largest |H - H(X)|, |K - K(X)| at the quadrature points; relative to @p scale and its square.

@@ -1,10 +1,12 @@
 // label: unit
 #include <catch2/catch.hpp>
 
+#include <geometry/area.h>
 #include <geometry/sample_surfaces.h>
 #include <sherd/geometry/element_geometry.h>
 
 using namespace sherd;
+using sherd::test::area;
 
 namespace
 {
@@ -33,16 +35,6 @@ Jet<spacedim> jet(const ElementGeometry<degree, spacedim> &g, int q)
       j.d12 += s.d12[q][b] * P;
     }
   return j;
-}
-
-template <int degree, int spacedim>
-double area(const Surface<degree, spacedim> &surface)
-{
-  double sum = 0.;
-  for (int e = 0; e < surface.n_elements(); ++e)
-    for (const auto &q : element_geometry(surface, e).reference)
-      sum += q.dA;
-  return sum;
 }
 
 /// A^ab (f,ab - Gamma^c_ab f,c) as the element has it.

@@ -3,11 +3,13 @@
 
 #include <catch2/catch.hpp>
 
+#include <geometry/area.h>
 #include <geometry/sample_surfaces.h>
 #include <sherd/geometry/element_geometry.h>
 #include <sherd/geometry/split.h>
 
 using namespace sherd;
+using sherd::test::area;
 
 namespace
 {
@@ -21,16 +23,6 @@ std::set<int> points_of(const Surface<degree, spacedim> &surface, const std::str
     for (const int point : points_along(surface, edge))
       result.insert(point);
   return result;
-}
-
-template <int degree, int spacedim>
-double area(const Surface<degree, spacedim> &surface)
-{
-  double sum = 0.;
-  for (int e = 0; e < surface.n_elements(); ++e)
-    for (const auto &q : element_geometry(surface, e).reference)
-      sum += q.dA;
-  return sum;
 }
 
 /// The one control point that both faces share, and no other.

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <geometry/area.h>
 #include <geometry/sample_surfaces.h>
 #include <sherd/geometry/element_geometry.h>
 
@@ -86,16 +87,6 @@ std::array<double, 2> kinks(const Surface<degree, 3> &surface)
     range              = {std::min(range[0], angle), std::max(range[1], angle)};
   });
   return range;
-}
-
-template <int degree, int spacedim>
-double area(const Surface<degree, spacedim> &surface)
-{
-  double sum = 0.;
-  for (int e = 0; e < surface.n_elements(); ++e)
-    for (const auto &q : element_geometry(surface, e).reference)
-      sum += q.dA;
-  return sum;
 }
 
 /// Sides of all patches that are part of no interface.

@@ -1,7 +1,7 @@
 // Step 11: a balloon bursts
 //
-// The paper's second example (its section 3.2): a closed sphere of six patches, inflated suddenly, with a small crack
-// in it. The crack runs, forks again and again, and its branches meet until the sphere has come apart. New here: a
+// The paper's second example (its section 3.2): a closed sphere of six patches, inflated suddenly, with a crack
+// in it. The crack runs, forks, and its branches go on around the sphere in each of its breaths. New here: a
 // surface of many patches, and what keeps it smooth across their interfaces.
 //
 // Run:     mpirun -np 2 ./step-11 demo.yaml --output output-penalty
