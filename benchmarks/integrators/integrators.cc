@@ -61,6 +61,7 @@ struct Parameters
   std::string        problem = "plate";
   std::string        scheme  = "generalized_alpha_0.5";
   Method             method  = Method::newton;
+  double             damping = 0.;
   PlateSettings      plate;
   ShellSettings      shell;
   NewtonSettings     newton;
@@ -74,6 +75,8 @@ struct Parameters
     section.choice("problem", problem, std::vector<std::string>{"oscillator", "shell", "plate"}, "what is computed");
     section.choice("scheme", scheme, names, "implicit integrator; nothing to method: explicit");
     section.choice("method", method, methods(), "how the system of a step is solved");
+    section.value("damping", damping, "-", range::right_open(0., 1.),
+                  "share of critical damping, of the explicit method");
     section.subsection("plate", plate, "the branching plate");
     section.subsection("shell", shell, "the vibrating shell");
     section.subsection("newton", newton, "nonlinear and linear solver");
@@ -107,9 +110,11 @@ void with_solver(const Parameters &prm, const Model &model, const ShellSpace<Mod
                  const Supports &supports, const Loads<Model::spacedim> &loads, const Use &use)
 {
   const auto newton = newton_of(prm);
+  if (prm.damping != 0. && prm.method != Method::explicit_scheme)
+    throw InvalidParameter("damping is given, but belongs to method = explicit; leave it out");
   if (prm.method == Method::explicit_scheme)
     {
-      ExplicitSolver<Model> solver(model, space, supports, loads, CentralDifference(), newton);
+      ExplicitSolver<Model> solver(model, space, supports, loads, CentralDifference(prm.damping), newton);
       use(solver);
     }
   else if (prm.method == Method::staggered)

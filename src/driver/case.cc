@@ -52,13 +52,36 @@ void Case::resolve()
     throw InvalidParameter("time.steps.rule = error with time.integrator = quasi_static, whose steps have no error in "
                            "time; use newton or fixed");
   if (rests && (!stop.crack_at.empty() || stop.crack_length || stop.elastic_share))
-    throw InvalidParameter(
-        "stop: with solver = arc_length and modes no crack grows; the path ends at time.end or after "
-        "stop.steps");
+    throw InvalidParameter("stop: with solver = arc_length and modes no crack grows; a path ends at time.end or after "
+                           "stop.steps");
+  if (solver == SolverChoice::modes && surface.continuity.method == ContinuityParameters::Method::lagrange_multiplier)
+    throw InvalidParameter("solver = modes with surface.continuity.method = lagrange_multiplier: multipliers have no "
+                           "mass; use penalty");
+  check_unused();
   if (solver == SolverChoice::explicit_)
-    time.check_unused();
+    time.make_explicit();
   else
     time.make_integrator();
+}
+
+void Case::check_unused() const
+{
+  const auto unused = [](bool is_given, const std::string &what, const std::string &owner) {
+    if (is_given)
+      throw InvalidParameter(what + " is given, but belongs to " + owner + "; leave it out");
+  };
+  const FractureParameters fracture_defaults;
+  const StopParameters     stop_defaults;
+  unused(fracture.crack_density != "at1" && fracture.at1_width != fracture_defaults.at1_width, "fracture.at1_width",
+         "crack_density = at1");
+  unused(fracture.irreversibility != "penalty" && fracture.healing_penalty != fracture_defaults.healing_penalty,
+         "fracture.healing_penalty", "irreversibility = penalty");
+  unused(surface.continuity.method != ContinuityParameters::Method::penalty &&
+             (surface.continuity.deformation != 0. || surface.continuity.phase != 0.),
+         "surface.continuity.deformation or phase", "method = penalty");
+  unused(stop.crack_at.empty() && stop.threshold != stop_defaults.threshold, "stop.threshold", "stop.crack_at");
+  unused(solver == SolverChoice::modes && (stop.steps > 0 || !output.points.empty() || !output.reactions.empty()),
+         "stop.steps, output.points or output.reactions", "solvers that take steps");
 }
 
 const std::vector<std::string> &model_sections()

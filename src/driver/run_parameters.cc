@@ -25,6 +25,8 @@ void TimeParameters::declare(ParameterSection &section)
   section.value("alpha", alpha, "-", range::closed(-1. / 3., 0.), "of hht (none: -0.1)");
   section.value("beta", beta, "-", range::positive(), "of newmark (none: 1/4)");
   section.value("gamma", gamma, "-", range::at_least(.5), "of newmark (none: 1/2)");
+  section.value("damping", damping, "-", range::right_open(0., 1.),
+                "of central_difference, share of critical damping at the largest frequency (none: 0)");
   section.value("end", end, "time", range::positive(), "end of the run");
   section.value("largest_step", largest_step, "time", range::positive(),
                 "no step is longer; none: the bound of step control alone, and none for quasi_static");
@@ -39,15 +41,11 @@ void check(const TimeParameters &time, const std::initializer_list<std::string> 
                         {{"rho_inf", time.rho_inf.has_value()},
                          {"alpha", time.alpha.has_value()},
                          {"beta", time.beta.has_value()},
-                         {"gamma", time.gamma.has_value()}},
+                         {"gamma", time.gamma.has_value()},
+                         {"damping", time.damping.has_value()}},
                         {}, allowed);
 }
 } // namespace
-
-void TimeParameters::check_unused() const
-{
-  check(*this, {});
-}
 
 AnyIntegrator TimeParameters::make_integrator() const
 {
@@ -71,7 +69,7 @@ AnyIntegrator TimeParameters::make_integrator() const
       check(*this, {"beta", "gamma"});
       return Newmark(beta.value_or(.25), gamma.value_or(.5));
     }
-  check_unused();
+  check(*this, {});
   if (integrator == "bathe")
     return Bathe();
   if (integrator == "implicit_midpoint")
@@ -79,6 +77,12 @@ AnyIntegrator TimeParameters::make_integrator() const
   if (integrator == "backward_euler")
     return BackwardEuler();
   return QuasiStatic();
+}
+
+CentralDifference TimeParameters::make_explicit() const
+{
+  check(*this, {"damping"});
+  return CentralDifference(damping.value_or(0.));
 }
 
 void StopParameters::declare(ParameterSection &section)

@@ -61,7 +61,7 @@ double eigenvalue_bound(const Matrix &stiffness, const Vector &mass, std::span<c
           {
             product.local()[i] = sum / mass.local()[i];
             const double ratio = product.local()[i] / d.local()[i];
-            largest            = std::isnan(ratio) ? ratio : std::max(largest, ratio);
+            largest = std::isfinite(ratio) ? std::max(largest, ratio) : std::numeric_limits<double>::infinity();
           }
       });
       MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, stiffness.distribution().comm());

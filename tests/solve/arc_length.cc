@@ -126,3 +126,14 @@ TEST_CASE("a path that cannot be followed ends with a message")
   CHECK(text.find("did not converge in 1 iterations") != std::string::npos);
   CHECK(path.state().time == 0.);
 }
+
+TEST_CASE("a path along which the loads do not change is refused")
+{
+  Supports supports;
+  supports.prescribe("right", Component::x, [](double) { return -.1 * Bar::length; });
+  Bar        bar(supports, {});
+  const auto start = bar.solver.solve(bar.state, 0.);
+  REQUIRE(start.state);
+  ArcLength path(bar.solver, *start.state, {.first_factor = .05});
+  CHECK_THROWS_WITH(path.advance(), Catch::Contains("nothing moves when the load factor changes"));
+}

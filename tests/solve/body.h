@@ -133,7 +133,7 @@ struct Body
   double largest_phase() const { return *std::max_element(state.phase.local().begin(), state.phase.local().end()); }
   double smallest_phase() const { return *std::min_element(state.phase.local().begin(), state.phase.local().end()); }
 
-  Energies energies() const { return solver.energies(state); }
+  Energies energies() { return solver.energies(state); }
 };
 
 /// Stretch in both directions at which Psi+ = K/4 (lambda^4 - 1 - 4 ln lambda) reaches @p energy (theory C.3).

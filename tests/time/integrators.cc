@@ -196,6 +196,8 @@ TEST_CASE("Integrators refuse parameters without a stable scheme")
       CHECK_THROWS_AS(WBZ(rho), InvalidParameter);
       CHECK_THROWS_AS(PlainWBZ(rho), InvalidParameter);
     }
+  for (const double damping : {-1e-12, 1., 2., nan})
+    CHECK_THROWS_AS(CentralDifference(damping), InvalidParameter);
   for (const double alpha : {1e-12, -.34, -1., nan})
     {
       CHECK_THROWS_AS(HHT(alpha), InvalidParameter);

@@ -217,6 +217,27 @@ TEST_CASE("Central differences are of second order without damping, up to twice 
   CHECK(spectral_radius(amplification(stages, 2.001 * 2.001)) > 1.05);
 }
 
+TEST_CASE("Central differences with damping are stable up to their largest step")
+{
+  // x and the velocity half a step before: a_n = -x_n - 2 xi v_{n-1/2}, omega = 1.
+  for (const double xi : {0., .05, .3, .9})
+    {
+      CAPTURE(xi);
+      const CentralDifference scheme(xi);
+      const double            b      = scheme.stiffness_factor(1.);
+      const auto              radius = [&](double dt) {
+        Eigen::Matrix2d A;
+        A << 1. - dt * dt, dt * (1. - b * dt), -dt, 1. - b * dt;
+        return A.eigenvalues().cwiseAbs().maxCoeff();
+      };
+      CHECK(b == 2. * xi);
+      CHECK(radius(.999 * scheme.largest_step(1.)) < 1. + 1e-12);
+      CHECK(radius(1.01 * scheme.largest_step(1.)) > 1.01);
+      // A slow motion, a hundredth of the largest frequency, loses xi / 100 of critical damping.
+      CHECK(std::log(radius(1e-3)) == Approx(-xi * 1e-3).epsilon(1e-2).margin(1e-12));
+    }
+}
+
 TEST_CASE("Spectral radius at high frequency is rho_inf")
 {
   // Eigenvalues meet there: their distance falls with the cube root of 1/(omega dt)^2.

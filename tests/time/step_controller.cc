@@ -263,6 +263,21 @@ TEST_CASE("An explicit scheme limits the step without changing what comes after"
   CHECK(c.step() == Approx(.075));
 }
 
+TEST_CASE("Steps do not grow beyond a cap, and shrink from there at once")
+{
+  auto c = controller(100.);
+  c.cap(.1);
+  CHECK(c.step() == .1);
+  for (int i = 0; i < 50; ++i)
+    c.accept(1);
+  CHECK(c.step() == .1);
+  CHECK(c.largest() == .1);
+  c.accept(6);
+  CHECK(c.step() < .1);
+  c.bound(1e3, 1.); // a mesh that would allow longer steps
+  CHECK(c.largest() == .1);
+}
+
 TEST_CASE("Steps by error keep the error of a step at its tolerance")
 {
   // A scheme of second order with an error that changes slowly in time: e = C(t) dt^3.

@@ -24,7 +24,7 @@ public:
   using SpaceType               = ShellSpace<degree, spacedim>;
   using StateType               = State<degree, spacedim>;
 
-  /// @throws InvalidParameter   settings out of range
+  /// @throws InvalidParameter   a target that is not positive, a halo that is negative
   Adaptivity(const SurfaceType &surface, const RefinementSettings &settings);
 
   /// Refines around the pre-cracks until the mesh resolves them, evaluates their initial history and the start value

@@ -64,7 +64,8 @@ struct LinearSolverSettings
     section.value("iteration_limit", iteration_limit, range::at_least(1), "iterations before escalation");
     section.value("max_iterations", max_iterations, range::at_least(1), "iterations allowed without escalation");
     section.value("reuse", reuse, range::non_negative(),
-                  "incomplete factors are kept while they cost no more than this many iterations; 0: always fresh");
+                  "incomplete factors are kept while they cost no more than this many iterations beyond fresh ones; 0: "
+                  "always fresh");
     section.value("restart", restart, range::at_least(1), "size of the Krylov space");
     section.value("retry_interval", retry_interval, range::at_least(1),
                   "solves after which an escalated solver tries the cheaper one again");

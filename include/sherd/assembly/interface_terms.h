@@ -20,7 +20,7 @@ namespace sherd
 /// phase value is that of the phase; the others are not used and have the equation dx = 0. Multipliers are slightly
 /// compliant, K_qq = -int dS/eps with eps of theory G.3 for beta = 1e8: the penalty of that factor, reached without its
 /// condition number. So constraints may depend on each other, as they do in corners (theory G.4). Where the sheet is
-/// broken the multiplier of the angle is as compliant as a penalty is, see soften().
+/// broken the angle keeps as much of its stiffness as the sheet does of its bending, see soften().
 ///
 /// The loops over interfaces are serial; they are few.
 template <class Model>
@@ -38,9 +38,10 @@ public:
   /// @throws InvalidParameter   a toughness that is not positive: on all ranks
   InterfaceTerms(const Model &model, const ShellSpace<degree, spacedim> &space, const std::vector<Tie> &ties);
 
-  /// Makes multipliers of the angle compliant where the sheet is broken at @p phase: eps (g + beta_0 / beta) with the
-  /// mean of g(phi) over a piece and beta_0 the default factor of penalties (theory G.4). A broken sheet has nothing to
-  /// resist a moment with, and a constraint would turn it over.
+  /// Lets go of the angle as far as the sheet is broken at @p phase: eps (p + (1 - p) g + r) with the mean of g(phi)
+  /// over a piece, the share p of bending that a crack leaves, and r = 1e-6 for penalties and 1e-6 beta_0 / 1e8 for
+  /// multipliers, beta_0 the default factor of penalties (theory G.4). A sheet that has nothing to resist a moment with
+  /// would be turned over.
   void soften(const Model &model, const Vector &phase);
 
   /// Adds the forces on the owned control points and the residuals of owned multipliers, block n_fields, in the rows of
@@ -85,17 +86,20 @@ private:
     CellScatter<n_fields>             scatter;
     int                               multiplier = -1; ///< local point
     bool                              owned;
-    double                            angle_stiffness   = 0.; ///< eps; 0: no penalty
-    double                            angle_compliance  = 0.; ///< -K_qq of the angle, of the sheet as it is
-    double                            intact_compliance = 0.; ///< the same of the intact sheet
-    double                            phase_compliance  = 0.; ///< -K_qq of the phase
-    Eigen::MatrixXd                   phase_penalty;          ///< shape=(n, n) or empty
-    Eigen::VectorXd                   phase_jump;             ///< shape=(n) or empty
+    double                            intact_stiffness = 0.; ///< eps of the angle; 0: nothing asks for it
+    double                            lasting          = 0.; ///< share p of it that a crack leaves
+    double                            softening        = 1.; ///< share of eps that the sheet as it is has
+    double                            phase_compliance = 0.; ///< -K_qq of the phase
+    Eigen::MatrixXd                   phase_penalty;         ///< shape=(n, n) or empty
+    Eigen::VectorXd                   phase_jump;            ///< shape=(n) or empty
 
     Eigen::Index n() const { return static_cast<Eigen::Index>(tables.points.size()); }
     bool         has_multiplier() const { return multiplier >= 0; }
-    bool         has_angle_multiplier() const { return angle_compliance > 0.; }
+    bool         has_angle_terms() const { return intact_stiffness > 0.; }
+    bool         has_angle_multiplier() const { return has_multiplier() && has_angle_terms(); }
     bool         has_phase_multiplier() const { return phase_compliance > 0.; }
+    double       angle_stiffness() const { return softening * intact_stiffness; }       ///< eps of a penalty
+    double       angle_compliance() const { return tables.length / angle_stiffness(); } ///< -K_qq of a multiplier
   };
 
   /// Arrays of a piece on its points, index point * n_fields + field.

@@ -50,10 +50,11 @@ InterfaceTerms<Model>::InterfaceTerms(const Model &model, const ShellSpace<degre
         for (const auto &point : cell.tables.quadrature)
           factor = std::max(factor, model.stiffness(point.position));
         const double eps = internal::angle_penalty(beta_angle, factor * stiffness, cell.tables.size);
-        if (stiffness > 0. && penalty)
-          cell.angle_stiffness = eps;
-        if (stiffness > 0. && !penalty)
-          cell.angle_compliance = cell.intact_compliance = cell.tables.length / eps;
+        if (stiffness > 0.)
+          {
+            cell.intact_stiffness = eps;
+            cell.lasting          = internal::lasting_bending(model, cell.tables.size);
+          }
         if (penalty)
           sensitivity_ = std::max(sensitivity_, eps / cell.tables.size);
         if (std::remove_cvref_t<decltype(model.crack_density)>::order == 4)
@@ -82,15 +83,17 @@ void InterfaceTerms<Model>::set_phase_terms(const Model &model, Cell &cell, doub
 template <class Model>
 void InterfaceTerms<Model>::soften(const Model &model, const Vector &phase)
 {
-  constexpr double least = continuity::penalty_factor(degree) / multiplier_factor;
+  constexpr double broken = 1e-6; // of a penalty
   for (auto &cell : cells_)
-    if (cell.has_angle_multiplier())
+    if (cell.has_angle_terms())
       {
+        const double least =
+            cell.has_multiplier() ? broken * continuity::penalty_factor(degree) / multiplier_factor : broken;
         const auto phi = cell.scatter.phase(phase, cell.n());
         double     sum = 0.;
         for (const auto &point : cell.tables.quadrature)
           sum += point.dS * std::max(0., model.degradation.value(point.value.dot(phi)));
-        cell.angle_compliance = cell.intact_compliance / (sum / cell.tables.length + least);
+        cell.softening = cell.lasting + (1. - cell.lasting) * sum / cell.tables.length + least;
       }
 }
 
@@ -99,7 +102,7 @@ void InterfaceTerms<Model>::add_angle(const Cell &cell, const Vector &position, 
 {
   if constexpr (spacedim == 3)
     {
-      if (cell.angle_stiffness == 0. && !cell.has_angle_multiplier())
+      if (!cell.has_angle_terms())
         return;
       const auto   n = cell.n(), multiplier = n * n_fields;
       const auto   x    = cell.scatter.position(position, n);
@@ -108,7 +111,7 @@ void InterfaceTerms<Model>::add_angle(const Cell &cell, const Vector &position, 
 
       ControlValues<3> gradient = // of the constraint, or the force of the penalty
           cell.has_multiplier() ? angle_defect_gradient(cell.tables, x)
-                                : angle_penalty_force(cell.tables, x, cell.angle_stiffness);
+                                : angle_penalty_force(cell.tables, x, cell.angle_stiffness());
       for (int c = 0; c < 3; ++c)
         gradient.col(c) = cell.scatter.to_masters(c, gradient.col(c));
       if (wanted != Wanted::constraint_rows)
@@ -116,7 +119,7 @@ void InterfaceTerms<Model>::add_angle(const Cell &cell, const Vector &position, 
           for (int c = 0; c < 3; ++c)
             arrays.force(rows(c)) += (cell.has_multiplier() ? q : 1.) * gradient.col(c);
           if (cell.has_multiplier())
-            arrays.force[multiplier] += angle_defect(cell.tables, x) - cell.angle_compliance * q;
+            arrays.force[multiplier] += angle_defect(cell.tables, x) - cell.angle_compliance() * q;
         }
       if (wanted == Wanted::force)
         return;
@@ -127,12 +130,12 @@ void InterfaceTerms<Model>::add_angle(const Cell &cell, const Vector &position, 
               arrays.tangent(rows(c), multiplier) += gradient.col(c);
               arrays.tangent(multiplier, rows(c)) += gradient.col(c).transpose().eval();
             }
-          arrays.tangent(multiplier, multiplier) -= cell.angle_compliance;
+          arrays.tangent(multiplier, multiplier) -= cell.angle_compliance();
         }
       if (wanted == Wanted::constraint_rows)
         return;
       const Eigen::MatrixXd K = cell.has_multiplier() ? angle_multiplier_tangent(cell.tables, x, q)
-                                                      : angle_penalty_tangent(cell.tables, x, cell.angle_stiffness);
+                                                      : angle_penalty_tangent(cell.tables, x, cell.angle_stiffness());
       for (int c = 0; c < 3; ++c)
         for (int d = 0; d < 3; ++d)
           arrays.tangent(rows(c), rows(d)) +=
@@ -239,13 +242,14 @@ double InterfaceTerms<Model>::energy(const Vector &position, const Vector &phase
       {
         if constexpr (spacedim == 3)
           {
-            if (cell.angle_stiffness > 0.)
-              sum += angle_penalty_energy(cell.tables, cell.scatter.position(position, cell.n()), cell.angle_stiffness);
+            if (cell.has_angle_terms() && !cell.has_multiplier())
+              sum +=
+                  angle_penalty_energy(cell.tables, cell.scatter.position(position, cell.n()), cell.angle_stiffness());
             if (cell.has_angle_multiplier())
               {
                 const double q = position.local()[cell.multiplier * spacedim];
                 sum += q * (angle_defect(cell.tables, cell.scatter.position(position, cell.n())) -
-                            .5 * cell.angle_compliance * q);
+                            .5 * cell.angle_compliance() * q);
               }
           }
         const auto phi = cell.scatter.phase(phase, cell.n());

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include <sherd/base/exceptions.h>
 #include <sherd/base/print.h>
+#include <sherd/kinematics/surface_point.h>
 #include <sherd/space/continuity.h>
 
 namespace sherd::internal
@@ -18,6 +20,26 @@ double bending_stiffness(const Model &model)
     return model.split.bending().stiffness();
   else
     return 0.;
+}
+
+/// Share of the bending energy that a crack leaves, in [0, 1]: that of a flat sheet bent to a sphere of @p radius, to
+/// the side on which it is larger. Half with layers, none where all of bending is active.
+template <class Model>
+double lasting_bending(const Model &model, double radius)
+{
+  double share = 0.;
+  if constexpr (Model::spacedim == 3)
+    {
+      const Metric            flat = metric(Voigt(1., 1., 0.));
+      const ReferencePoint<3> reference(flat, Voigt::Zero());
+      for (const double curvature : {1. / radius, -1. / radius})
+        {
+          const auto response = model.split.respond(SurfacePoint<3>(reference, flat, Voigt(curvature, curvature, 0.)));
+          if (const double total = response.energy_active + response.energy_passive; total > 0.)
+            share = std::max(share, response.energy_passive / total);
+        }
+    }
+  return share;
 }
 
 /// beta of theory G.3: @p given, or @p otherwise if that is 0. @param where   begins the message

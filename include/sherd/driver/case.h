@@ -61,6 +61,9 @@ struct Case
   /// Puts chosen names in the place of defaults and checks what no single parameter can be checked for.
   /// @throws InvalidParameter
   void resolve();
+
+  /// @throws InvalidParameter   a setting of a choice that was not made
+  void check_unused() const;
 };
 
 /// Sections that a restart may repeat but not change: body, mesh and model.

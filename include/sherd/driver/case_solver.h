@@ -11,11 +11,11 @@
 namespace sherd
 {
 
-/// What bounds the steps of a case beside its solver.
-struct StepBounds
+/// Whether a crack tip crosses one element a step at most; without inertia time has no speed.
+enum class StepBound
 {
-  bool   by_waves = true; ///< a crack tip crosses one element a step at most; without inertia time has no speed
-  double largest  = std::numeric_limits<double>::infinity(); ///< [time]
+  by_waves,
+  none
 };
 
 /// A solver of single steps that is chosen at run time: what Adaptivity and RecordedRun use of one. It is asked a few
@@ -30,8 +30,8 @@ public:
   using Result                  = StepResult<degree, spacedim>;
 
   template <StepSolver Solver>
-  CaseSolver(std::unique_ptr<Solver> solver, const StepBounds &bounds)
-      : solver_(std::make_unique<Chosen<Solver>>(std::move(solver))), bounds_(bounds)
+  CaseSolver(std::unique_ptr<Solver> solver, StepBound bound)
+      : solver_(std::make_unique<Chosen<Solver>>(std::move(solver))), bound_(bound)
   {
   }
 
@@ -45,14 +45,14 @@ public:
   const Assembler<Model>             &assembler() const { return solver_->assembler(); }
   const ShellSpace<degree, spacedim> &space() const { return solver_->space(); }
   const Loads<spacedim>              &loads() const { return solver_->loads(); }
-  Energies                            energies(const StateType &state) const { return solver_->energies(state); }
+  Energies                            energies(const StateType &state) { return solver_->energies(state); }
   Point<spacedim>                     reaction(const std::string &edge) const { return solver_->reaction(edge); }
   PhaseTimers                        &timers() { return solver_->timers(); }
 
   /// c_R where steps are bounded by it, 0 otherwise.
-  double rayleigh_speed() const { return bounds_.by_waves ? solver_->rayleigh_speed() : 0.; }
+  double rayleigh_speed() const { return bound_ == StepBound::by_waves ? solver_->rayleigh_speed() : 0.; }
 
-  double largest_step() const { return std::min(bounds_.largest, solver_->largest_step()); }
+  double largest_step() const { return solver_->largest_step(); }
 
 private:
   struct Interface
@@ -66,7 +66,7 @@ private:
     virtual const Model                        &model() const                         = 0;
     virtual const Assembler<Model>             &assembler() const                     = 0;
     virtual const ShellSpace<degree, spacedim> &space() const                         = 0;
-    virtual Energies                            energies(const StateType &) const     = 0;
+    virtual Energies                            energies(const StateType &)           = 0;
     virtual Point<spacedim>                     reaction(const std::string &) const   = 0;
     virtual const Loads<spacedim>              &loads() const                         = 0;
     virtual double                              rayleigh_speed() const                = 0;
@@ -87,7 +87,7 @@ private:
     const Model            &model() const override { return s->model(); }
     const Assembler<Model> &assembler() const override { return s->assembler(); }
     const ShellSpace<degree, spacedim> &space() const override { return s->space(); }
-    Energies                            energies(const StateType &state) const override { return s->energies(state); }
+    Energies                            energies(const StateType &state) override { return s->energies(state); }
     Point<spacedim>                     reaction(const std::string &edge) const override { return s->reaction(edge); }
     const Loads<spacedim>              &loads() const override { return s->loads(); }
     double                              rayleigh_speed() const override { return s->rayleigh_speed(); }
@@ -98,7 +98,7 @@ private:
   };
 
   std::unique_ptr<Interface> solver_;
-  StepBounds                 bounds_;
+  StepBound                  bound_;
 };
 
 } // namespace sherd

@@ -106,6 +106,10 @@ public:
       support.displacement(0.);
     const Adaptivity<Model> adaptivity(blank_, prm_.refinement);
     const StepController    controller(prm_.time.steps);
+    if (prm_.solver == SolverChoice::arc_length || prm_.solver == SolverChoice::modes)
+      refuse_restart(env_);
+    if (prm_.solver == SolverChoice::arc_length)
+      StaticSolver<Model>(model_, space_, supports_, loads_, prm_.statics).rebuild(state);
     restart_checkpoint(env_, blank_); // with --restart
     on_root(env_.comm(), [&] {
       std::cout << "input is valid: " << prm_.surface.shape << ", " << surface_.n_patches()
@@ -133,6 +137,8 @@ private:
     Adaptivity<Model> adaptivity(blank_, prm_.refinement);
     StepController    controller(prm_.time.steps);
     const auto        checkpoint = restart_checkpoint(env_, blank_); // with --restart
+    if (prm_.time.largest_step)
+      controller.cap(*prm_.time.largest_step);
 
     State<degree, spacedim> state(space_);
     if (checkpoint)
@@ -195,18 +201,17 @@ private:
 
   Solver make_solver()
   {
-    const StepBounds bounds{.by_waves = has_inertia(),
-                            .largest  = prm_.time.largest_step.value_or(std::numeric_limits<double>::infinity())};
+    const auto bound = has_inertia() ? StepBound::by_waves : StepBound::none;
     switch (prm_.solver)
       {
       case SolverChoice::explicit_:
-        return {std::make_unique<ExplicitSolver<Model>>(model_, space_, supports_, loads_, CentralDifference(),
+        return {std::make_unique<ExplicitSolver<Model>>(model_, space_, supports_, loads_, prm_.time.make_explicit(),
                                                         prm_.newton),
-                bounds};
+                bound};
       case SolverChoice::staggered:
         return {std::make_unique<StaggeredSolver<Model, AnyIntegrator>>(model_, space_, supports_, loads_,
                                                                         prm_.time.make_integrator(), prm_.newton),
-                bounds};
+                bound};
       case SolverChoice::monolithic:
       case SolverChoice::arc_length:
       case SolverChoice::modes:
@@ -214,7 +219,7 @@ private:
       }
     return {std::make_unique<MonolithicSolver<Model, AnyIntegrator>>(model_, space_, supports_, loads_,
                                                                      prm_.time.make_integrator(), prm_.newton),
-            bounds};
+            bound};
   }
 
   Environment                     env_;

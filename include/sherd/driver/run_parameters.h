@@ -6,6 +6,7 @@
 
 #include <sherd/base/parameter_section.h>
 #include <sherd/time/any_integrator.h>
+#include <sherd/time/central_difference.h>
 #include <sherd/time/step_controller.h>
 
 namespace sherd
@@ -15,7 +16,7 @@ namespace sherd
 struct TimeParameters
 {
   std::string           integrator = "generalized_alpha";
-  std::optional<double> rho_inf, alpha, beta, gamma;
+  std::optional<double> rho_inf, alpha, beta, gamma, damping;
   double                end = NAN;
   std::optional<double> largest_step;
   StepControlSettings   steps;
@@ -26,8 +27,9 @@ struct TimeParameters
   /// @throws InvalidParameter   from the integrator; parameters that it does not have
   AnyIntegrator make_integrator() const;
 
-  /// @throws InvalidParameter   a parameter of an integrator, where it has none
-  void check_unused() const;
+  /// @pre central_difference
+  /// @throws InvalidParameter   from the integrator; parameters that it does not have
+  CentralDifference make_explicit() const;
 };
 
 /// What ends a run before its end time.

@@ -24,7 +24,7 @@ struct HistoryRow
   double crack_length;                      ///< arc length of all cracks (theory L)
   int    tips;                              ///< crack tips inside the body
   double tip_speed;                         ///< of the fastest one; 0 without tips
-  double wall;                              ///< seconds since the start of the program
+  double wall;                              ///< seconds the run has taken, those before a restart included
   double active, passive;                   ///< parts of the elastic energy: degraded, int g Psi+ dA, and not
   double membrane, bending;                 ///< the same energy in other parts
   double support_work, load_work;           ///< parts of the external work

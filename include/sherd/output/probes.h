@@ -20,7 +20,7 @@ struct PointProbe
 /// probes.csv: displacement and phi at named points, reactions on named edges.
 ///
 /// Columns `time`, for each point `NAME.ux,NAME.uy[,NAME.uz],NAME.phi`, for each edge `NAME.rx,NAME.ry[,NAME.rz]`.
-/// Reactions are the forces the supports of the edge exert on the body [force]; the caller computes them.
+/// Reactions are the forces that supports and loads of the edge exert on the body [force]; the caller computes them.
 template <int spacedim>
 class Probes
 {

@@ -102,7 +102,7 @@ private:
   static RunRecorder<degree, spacedim> make_recorder(const Environment &env, const OutputDirectory &directory,
                                                      const SurfaceType                                 &initial,
                                                      const std::optional<Checkpoint<degree, spacedim>> &checkpoint,
-                                                     const RecorderSettings<spacedim> &recording, const Solver &solver,
+                                                     const RecorderSettings<spacedim> &recording, Solver &solver,
                                                      const StateType &state)
   {
     if (checkpoint)

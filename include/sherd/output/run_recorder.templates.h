@@ -107,10 +107,11 @@ void RunRecorder<degree, spacedim>::record(Source &source, const SpaceType &spac
   memory_.energies = step.energies;
   memory_.totals.add(step);
   write_rows(source, space, state, step);
-  const bool is_due = state.time >= settings_.frame_time(memory_.n_frames) * (1. - 1e-9);
-  if (is_due || std::find(settings_.times.begin(), settings_.times.end(), state.time) != settings_.times.end())
+  const auto is_due = [&] { return state.time >= settings_.frame_time(memory_.n_frames) * (1. - 1e-9); };
+  if (is_due() || std::find(settings_.times.begin(), settings_.times.end(), state.time) != settings_.times.end())
     write_frame(source, space, state);
-  memory_.n_frames += is_due;
+  while (is_due())
+    ++memory_.n_frames;
 }
 
 template <int degree, int spacedim>

@@ -71,6 +71,9 @@ private:
     const Vector direction = solver_->load_direction(next);
     const Vector tangent   = solver_->solve_tangent(std::span<const Vector>(&direction, 1)).front();
     const double speed     = std::sqrt(product(tangent, tangent));
+    if (!(speed > 0.))
+      throw InvalidParameter("arc length: nothing moves when the load factor changes; loads or supports have to be "
+                             "proportional to it, in a case file to t");
     if (length_ == 0.)
       length_ = first_length_ = settings_.first_factor * speed;
     const double along = product(tangent, previous_);

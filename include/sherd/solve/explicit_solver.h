@@ -15,8 +15,9 @@ namespace sherd
 ///   x_{n+1} from (x, v, a)_n and the supports;  phi_{n+1} at x_{n+1};
 ///   M_L a_{n+1} = f_ext - f_int(x_{n+1}, phi_{n+1});  v_{n+1}.
 ///
-/// A step larger than largest_step() is refused: that is 2 / omega with an upper bound of the frequencies of the lumped
-/// system by its assembled stiffness, taken anew after every 20 steps. In bending it is proportional to h^2.
+/// A step larger than largest_step() is refused: that is 2 / omega (less with damping) with an upper bound of the
+/// frequencies of the lumped system by its assembled stiffness K, taken anew after every 20 steps. In bending it is
+/// proportional to h^2. The damping force b K v takes the same omega and K.
 ///
 /// Unknowns that a support moves get the rates of three points of its path in the step. Ties act on increments; masses
 /// of tied unknowns go to their masters. Interfaces have to be kept together by penalties, since multipliers have no
@@ -37,8 +38,8 @@ public:
   static constexpr int n_fields = Model::n_fields;
 
   ExplicitSolver(const Model &model, const ShellSpace<Model::degree, spacedim> &space, const Supports &supports,
-                 const Loads<spacedim> &loads, const CentralDifference &, const NewtonSettings &settings)
-      : Base(model, space, supports, loads, settings)
+                 const Loads<spacedim> &loads, const CentralDifference &integrator, const NewtonSettings &settings)
+      : Base(model, space, supports, loads, settings), integrator_(integrator)
   {
   }
 
@@ -53,7 +54,7 @@ public:
   Result attempt(const StateType &state, double dt);
 
   /// Energies of @p state, the kinetic one with the lumped mass. Collective.
-  Energies energies(const StateType &state) const;
+  Energies energies(const StateType &state);
 
   /// Largest stable step at the state of the last estimate [time].
   double largest_step() const { return largest_step_; }
@@ -66,7 +67,7 @@ private:
   struct Forces
   {
     Vector position; ///< where
-    Vector total;    ///< internal and inertial, and the residual of the phase, block n_fields
+    Vector total;    ///< internal, inertial and damping, and the residual of the phase, block n_fields
     Vector external; ///< block n_fields
     double time;
   };
@@ -74,15 +75,17 @@ private:
   Forces forces_at_rest(const Vector &position, const Vector &phase, const QuadratureField &history, double time) const;
   void   balance(Forces &forces, const StateType &state, Motion &next, double dt) const;
   void   add_inertia(Forces &forces, const Vector &acceleration) const;
+  void   add_damping(Forces &forces, const Vector &velocity) const;
   bool   belongs_to(const std::optional<Forces> &forces, const StateType &state) const;
   void   estimate_largest_step(const StateType &state);
   double inertial_work(const Vector &acceleration, const Vector &displacement) const;
 
-  std::optional<Matrix> stiffness_; ///< of the displacement; for the estimate of the largest step
+  CentralDifference     integrator_;
+  std::optional<Matrix> stiffness_; ///< of the displacement, at the last estimate of the largest step
   std::optional<Vector> mass_;      ///< lumped, 0 where tied, block spacedim
-  double                largest_step_ = 0.;
-  int                   n_steps_      = 0; ///< since the last estimate
-  std::optional<Forces> start_, end_;      ///< of the last attempt, for its work
+  double                largest_step_ = 0., damping_ = 0.; ///< the latter the factor of the stiffness [time]
+  int                   n_steps_ = 0;                      ///< since the last estimate
+  std::optional<Forces> start_, end_;                      ///< of the last attempt, for its work
 };
 
 } // namespace sherd

@@ -45,8 +45,10 @@ void ExplicitSolver<Model>::estimate_largest_step(const StateType &state)
   std::vector<char> free(mass_->owned().size());
   for (std::size_t i = 0; i < free.size(); ++i)
     free[i] = !this->equations_.supported().fixed()[i / spacedim * n_fields + i % spacedim];
-  largest_step_ = 2. / std::sqrt(eigenvalue_bound(*stiffness_, *mass_, free));
-  n_steps_      = 0;
+  const double omega = std::sqrt(eigenvalue_bound(*stiffness_, *mass_, free));
+  largest_step_      = integrator_.largest_step(omega);
+  damping_           = integrator_.stiffness_factor(omega);
+  n_steps_           = 0;
 }
 
 template <class Model>
@@ -71,12 +73,25 @@ void ExplicitSolver<Model>::add_inertia(Forces &forces, const Vector &accelerati
 }
 
 template <class Model>
+void ExplicitSolver<Model>::add_damping(Forces &forces, const Vector &velocity) const
+{
+  if (damping_ == 0.)
+    return;
+  Vector damping = velocity;
+  stiffness_->multiply(velocity, damping);
+  for (int a = 0; a < velocity.distribution().n_owned(); ++a)
+    for (int c = 0; c < spacedim; ++c)
+      forces.total.local()[a * n_fields + c] += damping_ * damping.local()[a * spacedim + c];
+}
+
+template <class Model>
 void ExplicitSolver<Model>::set_initial_acceleration(StateType &state)
 {
   const auto timing = this->timers().measure("initial state");
   this->equations_.supported().check_velocity(state.velocity);
-  const auto  forces = forces_at_rest(state.position, state.phase, state.history, state.time);
+  auto        forces = forces_at_rest(state.position, state.phase, state.history, state.time);
   const auto &fixed  = this->equations_.supported().fixed();
+  add_damping(forces, state.velocity);
   state.acceleration.fill(0.);
   for (std::size_t i = 0; i < mass_->owned().size(); ++i)
     if (const auto k = i / spacedim * n_fields + i % spacedim; !fixed[k])
@@ -88,9 +103,13 @@ void ExplicitSolver<Model>::set_initial_acceleration(StateType &state)
 template <class Model>
 void ExplicitSolver<Model>::balance(Forces &forces, const StateType &state, Motion &next, double dt) const
 {
+  Vector half_way = state.velocity;
+  axpy(.5 * dt, state.acceleration, half_way);
+  add_damping(forces, half_way);
+
   // Increments of a: free unknowns by their forces, held ones by three points of the path of their support.
   const auto  &supported = this->equations_.supported();
-  const auto   stage     = CentralDifference().stages(dt, dt).front();
+  const auto   stage     = integrator_.stages(dt, dt).front();
   const Vector at_start  = supported.moves(state.position, state.time),
                at_middle = supported.moves(state.position, state.time + .5 * dt),
                at_end    = supported.moves(state.position, state.time + dt);
@@ -145,7 +164,7 @@ double ExplicitSolver<Model>::inertial_work(const Vector &acceleration, const Ve
 }
 
 template <class Model>
-Energies ExplicitSolver<Model>::energies(const StateType &state) const
+Energies ExplicitSolver<Model>::energies(const StateType &state)
 {
   auto energies    = Base::energies(state);
   energies.kinetic = .5 * inertial_work(state.velocity, state.velocity);
@@ -162,10 +181,11 @@ auto ExplicitSolver<Model>::attempt(const StateType &state, double dt) -> Result
       result.failure = "a step of " + print(dt) + " exceeds the largest stable one, " + print(largest_step_);
       return result;
     }
-  auto        &equations = this->equations_;
-  const auto  &supported = equations.supported();
+  auto       &equations = this->equations_;
+  const auto &supported = equations.supported();
+  equations.soften_interfaces(state.phase);
   const Motion start{state.position, state.velocity, state.acceleration};
-  Motion       next = predict(CentralDifference().stages(dt, dt).front(), start, start);
+  Motion       next = predict(integrator_.stages(dt, dt).front(), start, start);
   axpy(1., supported.moves(next.position, state.time + dt), next.position);
 
   auto system = equations.phase_system(
@@ -181,6 +201,7 @@ auto ExplicitSolver<Model>::attempt(const StateType &state, double dt) -> Result
     else if (!belongs_to(start_, state))
       {
         start_ = forces_at_rest(state.position, state.phase, state.history, state.time);
+        add_damping(*start_, state.velocity);
         add_inertia(*start_, state.acceleration);
       }
     end_ = forces_at_rest(next.position, system.phase, state.history, state.time + dt);

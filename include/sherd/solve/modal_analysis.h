@@ -32,9 +32,10 @@ vibration_modes(const Model &model, const ShellSpace<Model::degree, Model::space
                            std::to_string(space.n_multipliers()) + " multipliers, which have no mass; use " +
                            "continuity::Penalty");
   const SupportedUnknowns<Model::degree, spacedim> supported(supports, space);
-  const Assembler<Model> assembler(model, space, state.distribution, supported.ties(), supports.weak_edges());
-  Matrix                 stiffness = assembler.make_matrix(), mass     = stiffness;
-  Vector                 force(state.distribution, n_fields), external = force, rest = state.acceleration;
+  Assembler<Model> assembler(model, space, state.distribution, supported.ties(), supports.weak_edges());
+  assembler.soften_interfaces(state.phase);
+  Matrix stiffness = assembler.make_matrix(), mass     = stiffness;
+  Vector force(state.distribution, n_fields), external = force, rest = state.acceleration;
   rest.fill(0.);
   LoadValues<Model> none;
   none.time = state.time;

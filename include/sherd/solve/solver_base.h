@@ -61,9 +61,10 @@ public:
   /// stays as it is; without this, set_initial_acceleration() refuses any other. Collective.
   void complete_velocity(StateType &state) const { equations_.supported().complete_velocity(state.velocity); }
 
-  /// Energies of @p state. Collective.
-  Energies energies(const StateType &state) const
+  /// Energies of @p state, with interfaces that are softened by its phase. Collective.
+  Energies energies(const StateType &state)
   {
+    equations_.soften_interfaces(state.phase);
     return assembler().energies(state.position, state.velocity, state.phase, state.time);
   }
 

@@ -39,6 +39,10 @@ public:
   /// For the present mesh of the space and the distribution of @p state.
   void rebuild(const StateType &state);
 
+  /// Interfaces are as stiff as the sheet is at @p phase, InterfaceTerms::soften(): for a step that of its beginning,
+  /// for energies that of their state.
+  void soften_interfaces(const Vector &phase) { assembler_->soften_interfaces(phase); }
+
   const Assembler<Model>                    &assembler() const { return *assembler_; }
   const ShellSpace<degree, spacedim>        &space() const { return *space_; }
   const Model                               &model() const { return *model_; }

@@ -15,7 +15,7 @@ void StepEquations<Model>::rebuild(const StateType &state)
 {
   supported_.emplace(*supports_, *space_);
   assembler_.emplace(*model_, *space_, state.distribution, supported_->ties(), supports_->weak_edges());
-  assembler_->soften_interfaces(state.phase);
+  soften_interfaces(state.phase);
   phase_only_ = supported_->fixed();
   for (std::size_t i = 0; i < phase_only_.size(); ++i)
     if (i % n_fields != spacedim)
@@ -128,7 +128,7 @@ template <class Model>
 auto StepEquations<Model>::take_stages(const StateType &state, double dt, const Stages &stages,
                                        const StageSolver &solve) -> Result
 {
-  assembler_->soften_interfaces(state.phase);
+  soften_interfaces(state.phase);
   const Motion start{state.position, state.velocity, state.acceleration};
   StateType    end            = state; // of the last stage
   Vector       phase_before   = state.previous_phase;

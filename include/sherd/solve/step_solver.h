@@ -50,7 +50,7 @@ concept StepSolver = requires(Solver &solver, const Solver &fixed, typename Solv
     solver.attempt(state, dt)
     } -> std::same_as<StepResult<Solver::degree, Solver::spacedim>>;
   {
-    fixed.energies(state)
+    solver.energies(state)
     } -> std::same_as<Energies>;
   {
     fixed.reaction(edge)

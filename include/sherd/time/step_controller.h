@@ -104,7 +104,15 @@ public:
   /// The bound follows the mesh. @param shortest_edge dx_min [length]  @param rayleigh_speed c_R [length/time]
   void bound(double shortest_edge, double rayleigh_speed)
   {
-    largest_ = settings_.courant * shortest_edge / (.6 * rayleigh_speed);
+    largest_ = std::min(cap_, settings_.courant * shortest_edge / (.6 * rayleigh_speed));
+    dt_      = std::min(dt_, largest_);
+  }
+
+  /// No step is longer than @p largest [time] from now on, whatever the mesh.
+  void cap(double largest)
+  {
+    cap_     = largest;
+    largest_ = std::min(largest_, cap_);
     dt_      = std::min(dt_, largest_);
   }
 
@@ -274,6 +282,7 @@ private:
   StepControlSettings settings_;
   double              dt_;
   double              largest_ = infinity; ///< until bound() is called
+  double              cap_     = infinity; ///< no step is longer, whatever the mesh
   double              stable_  = infinity; ///< of an explicit scheme
   std::vector<double> stops_;              ///< ascending
   int                 retries_           = 0;
