@@ -77,7 +77,7 @@ struct CrackingPlate
 
   StepSummary advance(double end) { return adaptivity.advance(solver, plate, space, state, controller, end); }
 
-  Energies energies() const { return solver.energies(state); }
+  Energies energies() { return solver.energies(state); }
 
   /// Largest edge of the elements whose centre the predicate selects.
   template <class Where>

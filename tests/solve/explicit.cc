@@ -190,9 +190,9 @@ TEST_CASE("Damping takes from a vibration its share of critical damping, and the
       body.solver.set_initial_acceleration(body.state);
       EnergyBalance books(body.solver.energies(body.state));
       const double  start = books.state().now.kinetic;
-      const int     n     = 400;
+      const int     n     = static_cast<int>(std::ceil(M_PI / (omega * .05 * limit))); // half a period
       const double  b     = scheme.stiffness_factor(modes.omega[last]);
-      const double  dt    = std::min(.05 * limit, 1. / (b * omega * omega * n));
+      const double  dt    = M_PI / (omega * n);
       for (int i = 0; i < n; ++i)
         {
           const auto  result = take(body, dt);
@@ -378,17 +378,4 @@ TEST_CASE("Where the branch of the phase ends, an explicit step goes downhill ev
       CHECK(body.smallest_phase() == Approx(homogeneous_phase(body.model.degradation, load, 1., 1.)).epsilon(1e-3));
       CHECK(body.largest_phase() == Approx(body.smallest_phase()).epsilon(1e-6));
     }
-}
-
-TEST_CASE("A body of which everything is prescribed has no largest frequency, and damping does nothing")
-{
-  Supports supports;
-  for (const auto &edge : {"left", "right", "bottom", "top"})
-    for (const auto component : {Component::x, Component::y})
-      supports.prescribe(edge, component, [](double t) { return 1e-3 * t * t; });
-  Explicit body(unbreakable.model(), {1., 1.}, {1, 1}, {}, supports, {}, CentralDifference(.1));
-  CHECK(body.solver.largest_step() == std::numeric_limits<double>::infinity());
-  const auto result = take(body, .1);
-  CHECK(std::isfinite(result.work.internal));
-  CHECK(result.work.external.total() == Approx(result.work.internal).epsilon(1e-9));
 }

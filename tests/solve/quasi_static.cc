@@ -115,7 +115,7 @@ TEST_CASE("Stiffnesses in series, graded and side by side: exact solutions")
 {
   constexpr double tolerance = 2e-6; // of the strain, by which the solution is not linear
 
-  const Bar series(StiffnessField<2>([](double x, double) { return x < 1. ? 1. : 4.; }));
+  Bar series(StiffnessField<2>([](double x, double) { return x < 1. ? 1. : 4.; }));
   CHECK(series.stiffness() == Approx(1.6).epsilon(tolerance)); // 2 / (1 + 1/4)
   CHECK(series.error_in_the_middle(.8) < tolerance);
   CHECK(series.solver.energies(series.state).elastic() ==

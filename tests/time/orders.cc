@@ -231,6 +231,7 @@ TEST_CASE("Central differences with damping are stable up to their largest step"
         return A.eigenvalues().cwiseAbs().maxCoeff();
       };
       CHECK(b == 2. * xi);
+      CHECK(scheme.stiffness_factor(0.) == 0.); // nothing is free to vibrate
       CHECK(radius(.999 * scheme.largest_step(1.)) < 1. + 1e-12);
       CHECK(radius(1.01 * scheme.largest_step(1.)) > 1.01);
       // A slow motion, a hundredth of the largest frequency, loses xi / 100 of critical damping.

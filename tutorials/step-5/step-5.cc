@@ -113,7 +113,7 @@ struct Strip
   }
   Strip(const Strip &) = delete;
 
-  double energy() const { return solver.energies(state).fracture; }
+  double energy() { return solver.energies(state).fracture; }
 
   // Phase along the middle of the strip. Collective: every rank gets all of it.
   std::vector<double> sample(const std::vector<double> &x) const
