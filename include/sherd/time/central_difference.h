@@ -34,7 +34,7 @@ public:
     if (!(damping >= 0. && damping < 1.))
       throw InvalidParameter("CentralDifference: damping = " + print(damping) +
                              ", expected a value in [0, 1), the share of critical damping at the largest frequency; "
-                             "0 does not dissipate, 0.1 is usual");
+                             "0 does not dissipate, 0.05 is usual");
   }
 
   Stages stages(double dt, double) const { return {newmark_stage(dt, 1., 1., .5, 0.)}; }
