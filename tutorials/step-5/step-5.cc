@@ -149,7 +149,7 @@ void measure_cracks(const Environment &env, const Parameters &prm, const OutputD
   for (const auto &[name, density] : densities)
     for (std::size_t i = 0; i < prm.sizes.size(); ++i)
       {
-        const Strip  strip(env, prm, density, prm.sizes[i]);
+        Strip        strip(env, prm, density, prm.sizes[i]);
         const auto   phase = strip.sample(x);
         const double cost  = strip.energy();
         on_root(env.comm(), [&, &name = name, &density = density] {
