@@ -99,7 +99,14 @@ TEST_CASE("Integrators and solvers that do not belong together are refused")
   CHECK_THAT(with("integrator: central_difference", ""), Contains("belong together"));
   CHECK(with("integrator: quasi_static", "solver: arc_length\n") == "");
   CHECK_THAT(with("integrator: bathe", "solver: arc_length\n"), Contains("use quasi_static"));
-  CHECK(with("integrator: bathe", "solver: modes\nstop: {steps: 3}\n") == "");
+  CHECK(with("integrator: bathe", "solver: modes\n") == "");
+  CHECK(with("integrator: quasi_static", "solver: arc_length\nstop: {steps: 3}\n") == "");
+  CHECK_THAT(with("integrator: bathe", "solver: modes\nstop: {steps: 3}\n"), Contains("solvers that take steps"));
+  CHECK_THAT(with("integrator: bathe", "solver: modes\nsurface: {continuity: {method: lagrange_multiplier}}\n"),
+             Contains("multipliers have no mass"));
+  CHECK_THAT(with("integrator: bathe", "stop: {threshold: 0.2}\n"), Contains("belongs to stop.crack_at"));
+  CHECK(with("integrator: central_difference, damping: 0.05", "solver: explicit\n") == "");
+  CHECK_THAT(with("integrator: bathe, damping: 0.05", ""), Contains("has no damping"));
   CHECK_THAT(with("integrator: bathe", "solver: modes\nstop: {crack_length: 1}\n"), Contains("no crack grows"));
   CHECK_THAT(with("integrator: hht, rho_inf: 0.5", ""), Contains("has no rho_inf"));
   CHECK_THAT(with("integrator: newmark, beta: 0.1", ""), Contains("beta"));
